@@ -1,0 +1,26 @@
+# Every third-party library, all Debian packages. HELIODON_DEPS holds the header-only ones that an
+# older system lacks (./run unpacks them into build/deps).
+set(HELIODON_DEPS ${PROJECT_SOURCE_DIR}/build/deps CACHE PATH "Unpacked header-only dependencies")
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+find_package(Threads REQUIRED)
+find_package(glm REQUIRED)
+find_package(fmt REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(TBB REQUIRED)
+find_package(OpenEXR REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(meshoptimizer REQUIRED)
+find_package(draco REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(glfw3 REQUIRED)
+find_package(embree NAMES embree embree4 embree3 CONFIGS embree-config.cmake QUIET)
+find_package(Vulkan REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_path(STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
+find_path(VMA_INCLUDE_DIR vk_mem_alloc.h HINTS ${HELIODON_DEPS}/include PATH_SUFFIXES vma REQUIRED)

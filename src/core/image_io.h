@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/image.h"
+#include "core/result.h"
+
+namespace heliodon {
+
+/// Reads .exr (with its layers and `ev100` attribute), .hdr, .pfm, .png, .jpg. PNG and JPEG are decoded
+/// from sRGB to linear. Errors name the file and what is wrong with it.
+[[nodiscard]] Result<Picture> read_picture(const std::filesystem::path& path);
+
+/// Writes by ending: .exr (float, absolute values, `whiteLuminance` = 1, `ev100`, layers), .hdr, .pfm
+/// (linear), .png, .jpg (values already tone-mapped to [0,1] *display-encoded*; see encode_display).
+/// The file appears whole or not at all.
+[[nodiscard]] Result<void> write_picture(const std::filesystem::path& path, const Picture& picture);
+
+/// True for endings that hold display-encoded 8-bit pictures (.png .jpg .jpeg).
+[[nodiscard]] bool is_display_format(const std::filesystem::path& path);
+/// Checks before any work is done that `path` has a known ending and lies in a writable directory.
+[[nodiscard]] Result<void> check_writable(const std::filesystem::path& path);
+
+/// Writes `bytes` to a temporary name beside `path` and renames it.
+[[nodiscard]] Result<void> write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+[[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
+
+}  // namespace heliodon

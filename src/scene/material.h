@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/math.h"
+#include "scene/handle.h"
+
+namespace heliodon {
+
+using TextureId = Handle<struct TextureTag>;
+using MaterialId = Handle<struct MaterialTag>;
+
+enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
+enum class Filter : std::uint8_t { nearest, linear };
+enum class TextureFormat : std::uint8_t {
+    srgb8,    ///< four bytes a texel, RGB sRGB-encoded, A linear
+    linear8,  ///< four bytes a texel, linear (normals, occlusion-roughness-metallic, bump …)
+    float32,  ///< four floats a texel (16 bytes), linear: image skies
+};
+
+/// A decoded picture with its whole mip chain, level 0 first. Rows from the top.
+struct Texture {
+    std::string name;
+    int width = 0;
+    int height = 0;
+    TextureFormat format = TextureFormat::srgb8;
+    Wrap wrap_u = Wrap::repeat;
+    Wrap wrap_v = Wrap::repeat;
+    Filter magnify = Filter::linear;
+    Filter minify = Filter::linear;
+    bool mipmapped = true;                       ///< false: sample level 0 only
+    bool opaque = true;                          ///< every alpha is 1
+    std::vector<std::vector<std::uint8_t>> levels;  ///< bytes of each level; level k is max(1, size >> k)
+
+    [[nodiscard]] std::size_t bytes_per_texel() const { return format == TextureFormat::float32 ? 16 : 4; }
+    [[nodiscard]] std::size_t bytes() const {
+        std::size_t total = 0;
+        for (const auto& level : levels) total += level.size();
+        return total;
+    }
+};
+
+/// A texture as a material uses it: uv' = uv_matrix · uv + uv_offset (KHR_texture_transform).
+struct TextureUse {
+    TextureId texture;
+    int texcoord = 0;  ///< which of the mesh's coordinate sets
+    glm::mat2 uv_matrix{1.0f};
+    glm::vec2 uv_offset{0.0f};
+};
+
+enum class MaterialModel : std::uint8_t {
+    standard,  ///< metallic/roughness with a dielectric coat of `ior`
+    lambert,   ///< exactly base_color/π and nothing else
+    unlit,     ///< base_color × emission_nits' white: shown as it is, takes no light (KHR_materials_unlit)
+};
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+struct Material {
+    std::string name;
+    MaterialModel model = MaterialModel::standard;
+    glm::vec3 base_color{0.8f};
+    float opacity = 1.0f;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    float metallic = 0.0f;
+    float roughness = 1.0f;  ///< perceptual; GGX alpha = roughness²
+    float ior = 1.5f;
+    float transmission = 0.0f;
+    glm::vec3 emission_nits{0.0f};  ///< emitted radiance, cd/m²
+    float specular = 1.0f;          ///< KHR_materials_specular: scales the dielectric F0 and F90
+    glm::vec3 specular_color{1.0f};
+    float clearcoat = 0.0f;
+    float clearcoat_roughness = 0.0f;
+    float normal_scale = 1.0f;
+    float bump_scale_m = 0.01f;       ///< height of a bump texture's white over its black, metres
+    float occlusion_strength = 1.0f;  ///< acts on indirect diffuse light only
+    bool two_sided = false;
+
+    TextureUse base_color_texture;  ///< srgb8; alpha multiplies the opacity
+    TextureUse orm_texture;         ///< linear8: occlusion R, roughness G, metallic B; factors multiply
+    TextureUse occlusion_texture;   ///< linear8: R; the same texture as orm_texture where packed together
+    TextureUse normal_texture;      ///< linear8, tangent space, glTF's handedness
+    TextureUse bump_texture;        ///< linear8: R is height
+    TextureUse emission_texture;    ///< srgb8; multiplies emission_nits
+    TextureUse transmission_texture;  ///< linear8: R multiplies transmission
+    TextureUse specular_texture;      ///< linear8: A multiplies specular
+    TextureUse specular_color_texture;       ///< srgb8
+    TextureUse clearcoat_texture;            ///< linear8: R
+    TextureUse clearcoat_roughness_texture;  ///< linear8: G
+};
+
+}  // namespace heliodon

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+
+namespace heliodon {
+
+/// What a sensor measured, by either engine.
+struct SensorReading {
+    std::string name;
+    SensorType type = SensorType::illuminance;
+    double value = 0;          ///< lux or cd/m²
+    glm::dvec3 rgb{0};
+
+}  // namespace heliodon

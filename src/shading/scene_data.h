@@ -1,0 +1,102 @@
+// The flat scene records that both engines read: std430 in GLSL, the same bytes in C++ (every member
+// is 4- or 16-byte sized and placed so that no padding differs). Written by the convert room.
+#ifndef HELIODON_SHADING_SCENE_DATA_H
+#define HELIODON_SHADING_SCENE_DATA_H
+#include "shading/language.h"
+SHADING_BEGIN
+
+SHADING_CONST uint no_texture = 0xffffffffu;
+
+/// uv' = mat2(matrix.xy, matrix.zw as columns) · uv + offset
+struct TextureRef {
+    vec4 uv_matrix;
+    vec2 uv_offset;
+    uint texture_index;  // slot in the bindless table, or no_texture
+    uint texcoord;       // 0 or 1
+};
+
+SHADING_CONST uint material_model_standard = 0u;
+SHADING_CONST uint material_model_lambert = 1u;
+SHADING_CONST uint material_model_unlit = 2u;
+SHADING_CONST uint material_flag_two_sided = 1u;
+SHADING_CONST uint material_flag_alpha_mask = 2u;
+SHADING_CONST uint material_flag_alpha_blend = 4u;
+SHADING_CONST uint material_flag_emissive = 8u;
+
+struct MaterialData {
+    vec3 base_color;
+    float opacity;
+    vec3 emission_nits;
+    float alpha_cutoff;
+    vec3 specular_color;
+    float specular;
+    float metallic;
+    float roughness;
+    float ior;
+    float transmission;
+    float clearcoat;
+    float clearcoat_roughness;
+    float normal_scale;
+    float bump_scale_m;
+    float occlusion_strength;
+    uint model;
+    uint flags;
+    uint padding;
+    TextureRef base_color_texture;
+    TextureRef orm_texture;
+    TextureRef occlusion_texture;
+    TextureRef normal_texture;
+    TextureRef bump_texture;
+    TextureRef emission_texture;
+    TextureRef transmission_texture;
+    TextureRef specular_texture;
+    TextureRef specular_color_texture;
+    TextureRef clearcoat_texture;
+    TextureRef clearcoat_roughness_texture;
+    TextureRef padding_texture;
+};
+
+SHADING_CONST uint light_type_point = 0u;
+SHADING_CONST uint light_type_spot = 1u;
+SHADING_CONST uint light_type_directional = 2u;
+SHADING_CONST uint light_type_lambertian = 3u;  // a point light with a cosine distribution about its axis
+SHADING_CONST uint light_type_none = 4u;        // a hole in the table
+
+struct LightData {
+    vec3 position;  // metres, world
+    float radius;   // metres; directional: angular radius, radians
+    vec3 axis;      // unit; where the light aims (point lights of a sphere: unused)
+    uint type;
+    vec3 intensity;  // cd on axis; directional: lux
+    float cos_inner;
+    float cos_outer;
+    uint shadow;  // index of the first shadow view, or no_texture: the real-time engine's own
+    float padding0;
+    float padding1;
+};
+
+/// One drawable: a part of a node.
+struct InstanceData {
+    mat4 object_to_world;
+    mat4 normal_to_world;  // inverse transpose of the upper 3×3
+    uint geometry;
+    uint material;
+    uint flags;  // instance_flag_…
+    float determinant_sign;  // −1 where the transform mirrors
+};
+SHADING_CONST uint instance_flag_visible = 1u;
+
+SHADING_CONST uint sky_model_none = 0u;
+SHADING_CONST uint sky_model_constant = 1u;
+SHADING_CONST uint sky_model_image = 2u;
+struct SkyData {
+    vec3 luminance;  // constant: cd/m²; image: scale
+    uint model;
+    uint texture_index;
+    float north_rad;
+    float padding0;
+    float padding1;
+};
+
+SHADING_END
+#endif

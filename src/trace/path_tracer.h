@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "core/progress.h"
+#include "core/result.h"
+#include "scene/scene.h"
+#include "scene/sensor_reading.h"
+
+namespace heliodon {
+
+struct PathOptions {
+    int width = 1024, height = 768;
+    int samples_per_pixel = 64;
+    std::optional<double> seconds;  ///< stop after this long instead of after samples_per_pixel
+    int max_depth = 0;              ///< scattering events; 0 = unlimited, 1 = direct light only
+    bool environment = true;        ///< false: the sky gives no light and is black
+    std::uint32_t seed = 0;
+    int threads = 0;                ///< 0 = all cores; the picture does not depend on it
+    std::vector<std::string> aovs;  ///< albedo normal depth position direct indirect
+};
+
+struct PathStatistics {
+    double seconds = 0;
+    int samples_per_pixel = 0;
+    std::uint64_t rays = 0;
+};
+
+   double half_width_95 = 0;  ///< of `value`; 0 for an engine without noise
+};
+
+/// What one update of the tracing database did (tests read it).
+struct TraceUpdate {
+    int geometries_built = 0;
+    int instances_updated = 0;
+    bool top_level_built = false;
+};
+
+/// The ground truth: unidirectional path tracing with next-event estimation and multiple importance
+/// sampling over the scene's own vertex data. Nothing outside the trace room knows what answers its rays.
+class PathTracer {
+public:
+    PathTracer();
+    ~PathTracer();
+    PathTracer(PathTracer&&) noexcept;
+    PathTracer& operator=(PathTracer&&) noexcept;
+
+    /// Follows the scene's journal. Must be called before render or measure, and after edits; always with
+    /// the same scene object, which must outlive the tracer's use of it.
+    [[nodiscard]] Result<TraceUpdate> update(const Scene& scene);
+
+    /// Radiance in cd/m² as the camera sees it, box-filtered over each pixel.
+    [[nodiscard]] Result<Picture> render(const Scene& scene, const Camera& camera, const PathOptions& options,
+                                         PathStatistics* statistics = nullptr, const Progress& progress = {});
+
+    /// Every sensor of the scene with its 95 % half-width.
+    [[nodiscard]] Result<std::vector<SensorReading>> measure(const Scene& scene, const PathOptions& options,
+                                                             const Progress& progress = {});
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace heliodon
