@@ -31,9 +31,6 @@ struct PathStatistics {
     std::uint64_t rays = 0;
 };
 
-   double half_width_95 = 0;  ///< of `value`; 0 for an engine without noise
-};
-
 /// What one update of the tracing database did (tests read it).
 struct TraceUpdate {
     int geometries_built = 0;
