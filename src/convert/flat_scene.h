@@ -47,16 +47,21 @@ public:
     [[nodiscard]] Bounds bounds() const;
 
 private:
-    void rebuild(const Scene& scene, FlatChanges& changes);
-    void update_node(const Scene& scene, std::uint32_t node, FlatChanges& changes);
-    void update_subtree(const Scene& scene, std::uint32_t node, FlatChanges& changes);
-
+    /// The instances and the light that stand for one node.
     struct NodeEntries {
         std::vector<std::uint32_t> instances;
         std::uint32_t light = 0xffffffffu;
     };
+    void rebuild(const Scene& scene);
+    void refresh_tables(const Scene& scene);
+    void write_material(const Scene& scene, std::uint32_t slot, FlatChanges& changes);
+    void write_node(const Scene& scene, std::uint32_t slot, const glm::mat4& world, bool visible, FlatChanges& changes);
+    void clear_node(std::uint32_t slot, FlatChanges& changes);
+    void write_subtree(const Scene& scene, std::uint32_t slot, FlatChanges& changes);
+
     std::uint64_t journal_position_ = 0;
-    bool first_ = true;
+    bool built_ = false;
+    int texture_size_limit_ = 0;
     std::vector<NodeEntries> node_entries_;
     std::vector<std::uint32_t> free_instances_, free_lights_;
     std::vector<const Geometry*> geometries_;

@@ -1,0 +1,145 @@
+#include "convert/pack.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace heliodon::convert {
+namespace {
+
+using shading::InstanceData;
+using shading::LightData;
+using shading::MaterialData;
+using shading::TextureRef;
+
+// std430 places these members where C++ does; a vec3 that is not followed by a scalar would break that.
+static_assert(sizeof(TextureRef) == 32);
+static_assert(offsetof(MaterialData, metallic) == 48 && offsetof(MaterialData, base_color_texture) == 96);
+static_assert(sizeof(MaterialData) == 96 + 12 * 32);
+static_assert(sizeof(LightData) == 64 && offsetof(LightData, intensity) == 32);
+static_assert(sizeof(InstanceData) == 144);
+static_assert(sizeof(shading::SkyData) == 32);
+
+TextureRef pack_texture(const Scene& scene, const TextureUse& use) {
+    const bool present = scene.textures().contains(use.texture);
+    return {glm::vec4(use.uv_matrix[0], use.uv_matrix[1]), use.uv_offset,
+            present ? use.texture.index : shading::no_texture, static_cast<std::uint32_t>(use.texcoord)};
+}
+
+std::uint32_t pack_flags(const Material& material) {
+    std::uint32_t flags = 0;
+    if (material.two_sided) flags |= shading::material_flag_two_sided;
+    if (material.alpha_mode == AlphaMode::mask) flags |= shading::material_flag_alpha_mask;
+    if (material.alpha_mode == AlphaMode::blend) flags |= shading::material_flag_alpha_blend;
+    const glm::vec3 emission = material.emission_nits;
+    if (std::max({emission.r, emission.g, emission.b}) > 0.0f) flags |= shading::material_flag_emissive;
+    return flags;
+}
+
+glm::vec3 unit_or(const glm::vec3& vector, const glm::vec3& fallback) {
+    const float length = glm::length(vector);
+    return length > 0.0f && std::isfinite(length) ? vector / length : fallback;
+}
+
+}  // namespace
+
+MaterialData pack_material(const Scene& scene, const Material& material) {
+    MaterialData data{};
+    data.base_color = material.base_color;
+    data.opacity = material.opacity;
+    data.emission_nits = material.emission_nits;
+    data.alpha_cutoff = material.alpha_cutoff;
+    data.specular_color = material.specular_color;
+    data.specular = material.specular;
+    data.metallic = material.metallic;
+    data.roughness = material.roughness;
+    data.ior = material.ior;
+    data.transmission = material.transmission;
+    data.clearcoat = material.clearcoat;
+    data.clearcoat_roughness = material.clearcoat_roughness;
+    data.normal_scale = material.normal_scale;
+    data.bump_scale_m = material.bump_scale_m;
+    data.occlusion_strength = material.occlusion_strength;
+    data.model = static_cast<std::uint32_t>(material.model);
+    data.flags = pack_flags(material);
+    data.base_color_texture = pack_texture(scene, material.base_color_texture);
+    data.orm_texture = pack_texture(scene, material.orm_texture);
+    data.occlusion_texture = pack_texture(scene, material.occlusion_texture);
+    data.normal_texture = pack_texture(scene, material.normal_texture);
+    data.bump_texture = pack_texture(scene, material.bump_texture);
+    data.emission_texture = pack_texture(scene, material.emission_texture);
+    data.transmission_texture = pack_texture(scene, material.transmission_texture);
+    data.specular_texture = pack_texture(scene, material.specular_texture);
+    data.specular_color_texture = pack_texture(scene, material.specular_color_texture);
+    data.clearcoat_texture = pack_texture(scene, material.clearcoat_texture);
+    data.clearcoat_roughness_texture = pack_texture(scene, material.clearcoat_roughness_texture);
+    data.padding_texture = pack_texture(scene, {});
+    return data;
+}
+
+LightData pack_light(const Light& light, const glm::mat4& world) {
+    LightData data{};
+    const glm::vec3 forward(0.0f, 0.0f, -1.0f);
+    const bool directional = light.type == LightType::directional;
+    const glm::vec3 local_axis = directional ? unit_or(light.direction, forward) : forward;
+    data.position = glm::vec3(world[3]);
+    data.axis = unit_or(glm::mat3(world) * local_axis, forward);
+    data.radius = directional ? 0.5f * light.angular_diameter_rad : light.radius_m;
+    data.intensity = light.intensity;
+    data.cos_inner = std::cos(light.inner_rad);
+    data.cos_outer = std::cos(light.outer_rad);
+    data.shadow = shading::no_texture;
+    switch (light.type) {
+        case LightType::point: data.type = light.lambertian ? shading::light_type_lambertian : shading::light_type_point; break;
+        case LightType::spot: data.type = shading::light_type_spot; break;
+        case LightType::directional: data.type = shading::light_type_directional; break;
+    }
+    return data;
+}
+
+LightData no_light() {
+    LightData data{};
+    data.axis = glm::vec3(0.0f, 0.0f, -1.0f);
+    data.type = shading::light_type_none;
+    data.shadow = shading::no_texture;
+    return data;
+}
+
+InstanceData pack_instance(const glm::mat4& world, std::uint32_t geometry, std::uint32_t material, bool visible) {
+    InstanceData data{};
+    const glm::mat3 linear(world);
+    const float determinant = glm::determinant(linear);
+    // A node scaled to nothing has no surface and no inverse.
+    const bool invertible = determinant != 0.0f && std::isfinite(determinant) && std::isfinite(1.0f / determinant);
+    data.object_to_world = world;
+    data.normal_to_world = invertible ? glm::mat4(glm::transpose(glm::inverse(linear))) : glm::mat4(1.0f);
+    data.geometry = geometry;
+    data.material = material;
+    data.flags = visible && invertible ? shading::instance_flag_visible : 0u;
+    data.determinant_sign = determinant < 0.0f ? -1.0f : 1.0f;
+    return data;
+}
+
+shading::SkyData pack_sky(const Scene& scene) {
+    const Sky& sky = scene.sky();
+    shading::SkyData data{};
+    data.luminance = sky.luminance_nits;
+    data.model = static_cast<std::uint32_t>(sky.model);
+    data.texture_index = shading::no_texture;
+    data.north_rad = sky.north_rad;
+    if (sky.model == SkyModel::image) {
+        if (scene.textures().contains(sky.image)) data.texture_index = sky.image.index;
+        else data.model = shading::sky_model_none;
+    }
+    return data;
+}
+
+std::uint32_t first_level(const Texture& texture, int size_limit) {
+    std::uint32_t level = 0;
+    if (size_limit <= 0) return level;
+    while (level + 1 < texture.levels.size() && std::max(texture.width >> level, texture.height >> level) > size_limit)
+        ++level;
+    return level;
+}
+
+}  // namespace heliodon::convert
