@@ -1,0 +1,155 @@
+#include "app/editor/panels.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <vector>
+
+namespace heliodon::editor {
+namespace {
+
+void timing_panel(const FrameReport& report) {
+    ImGui::Text("%s", report.device.c_str());
+    ImGui::Text("%.3f ms GPU a frame, %d frames accumulated", report.gpu_ms_total, report.accumulated_frames);
+    if (!ImGui::BeginTable("passes", 2, ImGuiTableFlags_SizingStretchProp)) return;
+    for (const PassTime& pass : report.passes) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(pass.name.c_str());
+        ImGui::TableNextColumn();
+        ImGui::Text("%8.3f ms", pass.gpu_ms);
+    }
+    ImGui::EndTable();
+}
+
+bool degrees_slider(const char* label, float& radians, float low_deg, float high_deg) {
+    float degrees = glm::degrees(radians);
+    if (!ImGui::SliderFloat(label, &degrees, low_deg, high_deg, "%.1f deg")) return false;
+    radians = glm::radians(degrees);
+    return true;
+}
+
+void exposure_controls(Camera& camera) {
+    bool by_value = camera.ev100_override.has_value();
+    if (ImGui::Checkbox("exposure by value", &by_value)) {
+        const float current = camera.ev100();
+        camera.ev100_override = by_value ? std::optional(current) : std::nullopt;
+    }
+    if (camera.ev100_override) {
+        ImGui::SliderFloat("EV100", &*camera.ev100_override, -6.0f, 20.0f, "%.2f");
+        return;
+    }
+    constexpr auto logarithmic = ImGuiSliderFlags_Logarithmic;
+    ImGui::SliderFloat("aperture", &camera.aperture_f, 1.0f, 32.0f, "f/%.1f", logarithmic);
+    ImGui::SliderFloat("shutter", &camera.shutter_s, 1.0f / 8000.0f, 10.0f, "%.5f s", logarithmic);
+    ImGui::SliderFloat("ISO", &camera.iso, 25.0f, 25600.0f, "%.0f", logarithmic);
+    ImGui::Text("EV100 %.2f", camera.ev100());
+}
+
+void camera_panel(const Scene& scene, ViewState& view) {
+    scene.cameras().each([&](CameraId, const Camera& camera) {
+        if (ImGui::Button(camera.name.empty() ? "camera" : camera.name.c_str())) view.camera = camera;
+        ImGui::SameLine();
+    });
+    ImGui::NewLine();
+    if (ImGui::RadioButton("orbit", !view.fly)) view.fly = false;
+    ImGui::SameLine();
+    if (ImGui::RadioButton("fly", view.fly)) view.fly = true;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(120.0f);
+    ImGui::SliderFloat("speed", &view.fly_speed_m_per_s, 0.1f, 100.0f, "%.1f m/s", ImGuiSliderFlags_Logarithmic);
+    ImGui::DragFloat3("position", glm::value_ptr(view.camera.position), 0.01f, 0, 0, "%.2f m");
+    ImGui::DragFloat3("target", glm::value_ptr(view.camera.target), 0.01f, 0, 0, "%.2f m");
+    degrees_slider("field of view", view.camera.vertical_fov_rad, 5.0f, 120.0f);
+    exposure_controls(view.camera);
+}
+
+bool edit_light(Light& light) {
+    const bool directional = light.type == LightType::directional;
+    const float largest = std::max({light.intensity.r, light.intensity.g, light.intensity.b, 1.0f});
+    bool edited = ImGui::DragFloat3(directional ? "illuminance (lx)" : "intensity (cd)", glm::value_ptr(light.intensity),
+                                    0.01f * largest, 0.0f, 1e7f, "%.1f");
+    if (directional) {
+        edited |= ImGui::DragFloat3("direction", glm::value_ptr(light.direction), 0.01f, -1.0f, 1.0f);
+        edited |= degrees_slider("angular diameter", light.angular_diameter_rad, 0.0f, 20.0f);
+        return edited;
+    }
+    edited |= ImGui::DragFloat("radius", &light.radius_m, 0.001f, 0.0f, 10.0f, "%.3f m");
+    if (light.type == LightType::spot) {
+        edited |= degrees_slider("inner", light.inner_rad, 0.0f, 89.0f);
+        edited |= degrees_slider("outer", light.outer_rad, 0.5f, 90.0f);
+        light.inner_rad = std::min(light.inner_rad, light.outer_rad);
+    }
+    ImGui::Text("%.1f lm", flux_lm(light));
+    return edited;
+}
+
+void lights_panel(Scene& scene) {
+    std::vector<NodeId> lamps;
+    scene.nodes().each([&](NodeId id, const Node& node) {
+        if (node.light) lamps.push_back(id);
+    });
+    for (const NodeId id : lamps) {
+        const Node& node = *scene.nodes().find(id);
+        ImGui::PushID(static_cast<int>(id.index));
+        if (ImGui::TreeNodeEx(node.name.empty() ? "light" : node.name.c_str(), ImGuiTreeNodeFlags_DefaultOpen)) {
+            Light light = *node.light;
+            Transform transform = node.transform;
+            if (light.type != LightType::directional &&
+                ImGui::DragFloat3("place", glm::value_ptr(transform.translation), 0.01f, 0, 0, "%.2f m"))
+                scene.set_transform(id, transform);
+            const bool usable = glm::length(light.direction) > 0.0f;
+            if (edit_light(light) && usable) scene.set_light(id, light);
+            ImGui::TreePop();
+        }
+        ImGui::PopID();
+    }
+}
+
+bool edit_material(Material& material) {
+    bool edited = ImGui::ColorEdit3("base colour", glm::value_ptr(material.base_color), ImGuiColorEditFlags_Float);
+    if (material.model == MaterialModel::standard) {
+        edited |= ImGui::SliderFloat("metallic", &material.metallic, 0.0f, 1.0f);
+        edited |= ImGui::SliderFloat("roughness", &material.roughness, 0.0f, 1.0f);
+        edited |= ImGui::SliderFloat("index of refraction", &material.ior, 1.0f, 3.0f);
+        edited |= ImGui::SliderFloat("transmission", &material.transmission, 0.0f, 1.0f);
+    }
+    edited |= ImGui::DragFloat3("emission", glm::value_ptr(material.emission_nits), 1.0f, 0.0f, 1e7f, "%.1f cd/m2");
+    if (material.alpha_mode == AlphaMode::blend) edited |= ImGui::SliderFloat("opacity", &material.opacity, 0.0f, 1.0f);
+    edited |= ImGui::Checkbox("two-sided", &material.two_sided);
+    return edited;
+}
+
+void materials_panel(Scene& scene) {
+    for (std::uint32_t slot = 0; slot < scene.materials().capacity(); ++slot) {
+        const Material* found = scene.materials().at(slot);
+        if (!found) continue;
+        ImGui::PushID(static_cast<int>(slot));
+        if (ImGui::TreeNode(found->name.empty() ? "material" : found->name.c_str())) {
+            Material material = *found;
+            if (edit_material(material)) scene.set_material(scene.materials().id_at(slot), std::move(material));
+            ImGui::TreePop();
+        }
+        ImGui::PopID();
+    }
+}
+
+}  // namespace
+
+void draw_panels(Scene& scene, ViewState& view, const FrameReport& report) {
+    if (!view.panels_visible) return;
+    ImGui::SetNextWindowPos({12, 12}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({360, 640}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Heliodon")) {
+        ImGui::PushItemWidth(190.0f);
+        if (ImGui::CollapsingHeader("GPU time", ImGuiTreeNodeFlags_DefaultOpen)) timing_panel(report);
+        if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) camera_panel(scene, view);
+        if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) lights_panel(scene);
+        if (ImGui::CollapsingHeader("Materials")) materials_panel(scene);
+        ImGui::PopItemWidth();
+    }
+    ImGui::End();
+}
+
+}  // namespace heliodon::editor
