@@ -13,7 +13,7 @@ struct Camera {
     glm::vec3 position{0, 1, 4};
     glm::vec3 target{0, 1, 0};
     glm::vec3 up{0, 1, 0};
-    float vertical_fov_rad = 0.7f;
+    float vertical_fov_rad = 0.6981317f;  ///< 40°
     float near_m = 0.0f;  ///< 0: chosen from the scene's bounds
     float far_m = 0.0f;   ///< 0: infinite (reversed depth)
     float aperture_f = 2.8f;
@@ -23,6 +23,7 @@ struct Camera {
 
     /// EV100 = log2(N²/t · 100/S).
     [[nodiscard]] float ev100() const;
+    /// Rigid; the camera looks along −Z of its view space. `up` along the view direction falls back to another axis.
     [[nodiscard]] glm::mat4 world_to_view() const;
 };
 

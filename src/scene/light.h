@@ -23,10 +23,10 @@ struct Light {
     float range_m = 0.0f;     ///< KHR_lights_punctual's range, a hint only; 0 = unlimited
 };
 
-/// Flux in lumen of a light of unit-intensity colour Y (point 4π, Lambertian π, spot exact for the
-/// squared falloff); 0 for directional lights.
+/// Flux in lumen: the luminous intensity (0.2126 R + 0.7152 G + 0.0722 B) times flux_per_candela.
 [[nodiscard]] double flux_lm(const Light& light);
-/// Flux of the same light per candela of on-axis intensity.
+/// Flux in lumen of the same light per candela of on-axis intensity: point 4π, Lambertian π, spot exact
+/// for the squared falloff; 0 for directional lights.
 [[nodiscard]] double flux_per_candela(const Light& light);
 
 }  // namespace heliodon

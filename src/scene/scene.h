@@ -93,6 +93,8 @@ struct AnimationChannel {
     std::vector<float> times_s;   ///< increasing
     std::vector<float> values;    ///< cubic: in-tangent, value, out-tangent a key, as glTF
 };
+/// Floats a value of `property` takes: 1, 3 or 4.
+[[nodiscard]] int component_count(AnimatedProperty property);
 struct Animation {
     std::string name;
     std::vector<AnimationChannel> channels;
@@ -122,7 +124,8 @@ struct Change {
 };
 
 /// The generic, physical description of a scene. Every edit goes through here and leaves an entry in the
-/// change journal; derived databases (GPU, Embree) read the journal from where they last stood.
+/// change journal; derived databases (GPU, Embree) read the journal from where they last stood. The journal keeps
+/// the newest 2²⁰ changes.
 class Scene {
 public:
     using Nodes = Slots<Node, NodeTag>;
@@ -153,8 +156,11 @@ public:
     [[nodiscard]] MaterialId find_material(std::string_view name) const;
     [[nodiscard]] CameraId find_camera(std::string_view name) const;
 
-    // -- adding and removing. Removing a node removes what is below it.
+    // -- adding and removing. Removing a node removes what is below it; removing anything else leaves stale
+    // handles in what used it, which read as absent.
+    /// An empty handle, adding nothing, where `parent` is stale.
     NodeId add_node(Node node, NodeId parent = {});
+    /// Its bounds are computed here.
     GeometryId add_geometry(Geometry geometry);
     /// A shape with its tessellation by `convert_settings().shape_segments`.
     GeometryId add_shape(Shape shape, std::string name = {});
@@ -172,13 +178,14 @@ public:
     bool remove(AnimationId id);
 
     // -- editing. Each returns false for a stale handle (and then changes nothing).
+    /// Drops the node's matrix. Setting the present transform or visibility again leaves no change.
     bool set_transform(NodeId id, const Transform& transform);
     bool set_matrix(NodeId id, const glm::mat4& matrix);
     bool set_parts(NodeId id, std::vector<Part> parts);
     bool set_light(NodeId id, std::optional<Light> light);
     bool set_visible(NodeId id, bool visible);
     bool set_name(NodeId id, std::string name);
-    /// Refused (false) where it would make a cycle.
+    /// An empty `parent` makes a root. Refused (false) where it would make a cycle.
     bool set_parent(NodeId id, NodeId parent);
     bool set_geometry(GeometryId id, Geometry geometry);
     bool set_texture(TextureId id, Texture texture);
@@ -186,6 +193,7 @@ public:
     bool set_camera(CameraId id, Camera camera);
     bool set_sensor(SensorId id, Sensor sensor);
     void set_sky(const Sky& sky);
+    /// A new `shape_segments` tessellates every shape again.
     void set_convert_settings(const ConvertSettings& settings);
     void set_render_settings(RenderSettings settings);
 
@@ -209,6 +217,13 @@ public:
 
 private:
     void record(Change::Table table, std::uint8_t aspects, std::uint32_t index);
+    std::vector<NodeId>& siblings(const Node& node);
+    void apply(const AnimationChannel& channel, double time_s);
+    void apply_to_node(NodeId id, AnimatedProperty property, glm::vec4 value);
+    void apply_to_light(NodeId id, AnimatedProperty property, glm::vec4 value);
+    void apply_to_camera(CameraId id, AnimatedProperty property, glm::vec4 value);
+    void apply_to_material(MaterialId id, AnimatedProperty property, glm::vec4 value);
+    void apply_to_sky(glm::vec3 luminance_nits);
 
     Nodes nodes_;
     Geometries geometries_;
