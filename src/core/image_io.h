@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "core/image.h"
 #include "core/result.h"
@@ -8,11 +10,14 @@
 namespace heliodon {
 
 /// Reads .exr (with its layers and `ev100` attribute), .hdr, .pfm, .png, .jpg. PNG and JPEG are decoded
-/// from sRGB to linear. Errors name the file and what is wrong with it.
+/// from sRGB to linear. An EXR's picture is its R G B (A) or Y, else its first layer; of several parts the
+/// first is read, over its data window. Errors name the file and what is wrong with it.
 [[nodiscard]] Result<Picture> read_picture(const std::filesystem::path& path);
 
 /// Writes by ending: .exr (float, absolute values, `whiteLuminance` = 1, `ev100`, layers), .hdr, .pfm
-/// (linear), .png, .jpg (values already tone-mapped to [0,1] *display-encoded*; see encode_display).
+/// (linear), .png, .jpg (values already tone-mapped and *display-encoded* to [0,1]: units::srgb_encode).
+/// A layer's channels are named R G B (A), X Y Z where its name is `normal` or `position`, Z for a single
+/// channel named `depth`, Y for any other.
 /// The file appears whole or not at all.
 [[nodiscard]] Result<void> write_picture(const std::filesystem::path& path, const Picture& picture);
 
@@ -20,6 +25,8 @@ namespace heliodon {
 [[nodiscard]] bool is_display_format(const std::filesystem::path& path);
 /// Checks before any work is done that `path` has a known ending and lies in a writable directory.
 [[nodiscard]] Result<void> check_writable(const std::filesystem::path& path);
+/// The same for a file of any ending.
+[[nodiscard]] Result<void> check_directory_writable(const std::filesystem::path& path);
 
 /// Writes `bytes` to a temporary name beside `path` and renames it.
 [[nodiscard]] Result<void> write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
