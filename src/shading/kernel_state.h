@@ -1,0 +1,137 @@
+// What the light-transport kernel (path_kernel.h) reads, keeps and hands over, in both languages.
+#ifndef HELIODON_SHADING_KERNEL_STATE_H
+#define HELIODON_SHADING_KERNEL_STATE_H
+#include "shading/language.h"
+SHADING_BEGIN
+
+// -- rays and hits
+
+SHADING_CONST uint kernel_ray_none = 0u;     // the path has ended
+SHADING_CONST uint kernel_ray_scatter = 1u;  // wants the nearest hit
+SHADING_CONST uint kernel_ray_shadow = 2u;   // wants: blocked, the nearest translucent surface, or nothing
+
+struct KernelRay {
+    vec3 origin;
+    float t_max;
+    vec3 direction;  // unit length
+    uint kind;
+};
+
+SHADING_CONST uint kernel_hit_nothing = 0u;
+SHADING_CONST uint kernel_hit_surface = 1u;
+SHADING_CONST uint kernel_hit_blocked = 2u;  // shadow rays only: something opaque lies on the segment
+
+struct KernelHit {
+    vec3 object_normal;  // exact spheres: unit outward normal in object space; else unused
+    float t;
+    vec2 barycentric;  // triangles: weights of the second and third vertex; disks: (along e0, e1) / radius
+    uint instance;
+    uint primitive;
+    uint kind;
+};
+
+// -- the scene beyond scene_data.h
+
+SHADING_CONST uint kernel_shape_triangles = 0u;
+SHADING_CONST uint kernel_shape_disk = 1u;
+SHADING_CONST uint kernel_shape_sphere = 2u;
+SHADING_CONST uint kernel_shape_quad = 3u;  // a parallelogram of two triangles
+
+SHADING_CONST uint kernel_has_normals = 1u;
+SHADING_CONST uint kernel_has_tangents = 2u;
+SHADING_CONST uint kernel_has_texcoord0 = 4u;
+SHADING_CONST uint kernel_has_texcoord1 = 8u;
+SHADING_CONST uint kernel_has_colors = 16u;
+
+struct KernelGeometry {
+    vec3 center;  // disks and spheres, object space
+    float radius;
+    vec3 axis0;  // disks: an orthonormal frame, normal = cross(axis0, axis1); spheres: unused
+    uint shape;
+    vec3 axis1;
+    uint attributes;  // kernel_has_…
+};
+
+/// A light, an emissive primitive or the image sky, as next-event estimation selects it.
+SHADING_CONST uint kernel_emitter_light = 0u;  // `index` names a LightData
+SHADING_CONST uint kernel_emitter_triangle = 1u;
+SHADING_CONST uint kernel_emitter_quad = 2u;  // a parallelogram
+SHADING_CONST uint kernel_emitter_disk = 3u;
+SHADING_CONST uint kernel_emitter_sphere = 4u;
+SHADING_CONST uint kernel_emitter_sky = 5u;
+
+struct KernelEmitter {
+    vec3 origin;  // world; triangle, quad: a corner; disk, sphere: the centre
+    uint kind;
+    vec3 edge0;  // triangle, quad: edges from that corner; disk: conjugate semi-axes
+    uint index;  // instance or light
+    vec3 edge1;
+    uint primitive;
+    float probability;  // of being selected
+    float cumulative;   // sum of the probabilities up to and including this one
+    float area;         // m²; sphere: its world radius in metres if it stays a sphere there, else 0
+    float orientation;  // −1 where the instance mirrors: the front is orientation · edge0 × edge1
+};
+
+/// A direction to a light and what it brings, for next-event estimation.
+struct KernelLightSample {
+    vec3 direction;  // from the receiver, unit length
+    float pdf;       // per steradian, of this direction by light sampling; 0 for lights without extent
+    vec3 light;      // radiance/pdf, or illuminance on a plane that faces a light without extent / probability
+    float distance;  // to `target`; infinite lights: kernel_infinity
+    vec3 target;     // where the shadow ray ends, just in front of the light; finite lights only
+    float padding;
+};
+
+SHADING_CONST float kernel_infinity = 1.0e30f;
+SHADING_CONST uint kernel_no_emitter = 0xffffffffu;
+
+/// The picture, the camera and the tables' sizes: the same for every path of a render.
+struct KernelFrame {
+    vec3 camera_position;
+    uint width;
+    vec3 camera_forward;
+    uint height;
+    vec3 camera_right;  // scaled by the tangent of half the horizontal field of view
+    uint max_depth;     // scattering events; 0 = unlimited
+    vec3 camera_up;     // scaled by the tangent of half the vertical field of view
+    uint seed;
+    uint emitter_count;
+    uint visible_light_count;  // lights with an extent: spheres and directional discs
+    uint environment;          // 0: the sky is black
+    uint sky_emitter;          // the image sky's place among the emitters, or kernel_no_emitter
+    uint sky_columns;          // of the sky's sampling table
+    uint sky_rows;
+    uint scattered_emission;  // 0: no scattered ray can meet any light, so the last one need not be traced
+    uint padding;
+};
+
+// -- the path
+
+SHADING_CONST uint kernel_stage_done = 0u;
+SHADING_CONST uint kernel_stage_scatter = 1u;  // a scatter ray is next
+SHADING_CONST uint kernel_stage_shadow = 2u;   // a shadow ray is next, then what `after_shadow` says
+
+struct PathState {
+    vec3 origin;  // of the next scatter ray
+    uint stage;
+    vec3 direction;
+    uint after_shadow;  // the stage that follows the shadow ray
+    vec3 throughput;
+    float scatter_pdf;  // of `direction`, per steradian; 0: no light sampling competes with this ray
+    vec3 scatter_origin;  // where the ray was scattered: `origin` moves on past translucent surfaces
+    uint depth;           // scattering events so far
+    vec3 shadow_origin;
+    float shadow_t_max;
+    vec3 shadow_direction;
+    uint pass_count;  // translucent surfaces met so far
+    vec3 shadow_light;  // arrives if nothing blocks the shadow ray
+    uint pixel_seed;
+    vec3 radiance;  // all light gathered
+    uint sample_reversed;
+    vec3 direct;  // the part of it scattered at most once
+    uint padding;
+};
+
+SHADING_END
+#endif
