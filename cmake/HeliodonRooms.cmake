@@ -3,6 +3,10 @@
 function(heliodon_room ROOM)
   cmake_parse_arguments(ARG "" "" "USES;LIBRARIES;PUBLIC_LIBRARIES" ${ARGN})
   file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(NOT SOURCES)  # a room of headers alone still is a library that others link
+    set(SOURCES ${CMAKE_CURRENT_BINARY_DIR}/${ROOM}.cpp)
+    file(WRITE ${SOURCES} "")
+  endif()
   add_library(heliodon_${ROOM} STATIC ${SOURCES})
   target_include_directories(heliodon_${ROOM} PUBLIC ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(heliodon_${ROOM} PRIVATE -Wall -Wextra -Wpedantic -Wno-missing-field-initializers)
