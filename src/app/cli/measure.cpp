@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/commands.h"
+#include "app/cli/option_values.h"
+#include "app/cli/scene_argument.h"
+#include "app/cli/terminal.h"
+#include "realtime/renderer.h"
+#include "trace/path_tracer.h"
+
+namespace heliodon::cli {
+namespace {
+
+struct MeasureOptions {
+    SceneArgument scene;
+    Engine engine = Engine::path;
+    int samples = 4096;
+    int max_depth = 0;
+    std::uint32_t seed = 0;
+    bool no_environment = false;
+    RealtimeSettings device;
+    bool json = false;
+};
+
+using Readings = std::vector<SensorReading>;
+
+Result<Readings> measure_with_paths(const Scene& scene, const MeasureOptions& options) {
+    PathTracer tracer;
+    if (auto updated = tracer.update(scene); !updated) return tl::unexpected(updated.error());
+    PathOptions path;
+    path.samples_per_pixel = options.samples;
+    path.max_depth = options.max_depth;
+    path.seed = options.seed;
+    path.environment = !options.no_environment;
+    ProgressBar bar("measure");
+    return tracer.measure(scene, path, bar.callback());
+}
+
+Result<Readings> measure_in_real_time(const Scene& scene, const MeasureOptions& options) {
+    if (options.max_depth > 1) throw CLI::ValidationError("--max-depth", "the real-time engine measures direct light: expected 1");
+    auto renderer = RealtimeRenderer::create(options.device);
+    if (!renderer) return tl::unexpected(renderer.error());
+    if (auto updated = renderer->update(scene); !updated) return tl::unexpected(updated.error());
+    RealtimeOptions realtime;
+    realtime.seed = options.seed;
+    realtime.environment = !options.no_environment;
+    return renderer->measure(scene, realtime);
+}
+
+const char* type_name(SensorType type) { return type == SensorType::illuminance ? "illuminance" : "luminance"; }
+const char* unit(SensorType type) { return type == SensorType::illuminance ? "lux" : "cd/m2"; }
+
+std::string as_json(const Readings& readings) {
+    nlohmann::json sensors = nlohmann::json::array();
+    for (const SensorReading& reading : readings)
+        sensors.push_back({{"name", reading.name},
+                           {"type", type_name(reading.type)},
+                           {"value", reading.value},
+                           {"rgb", {reading.rgb.x, reading.rgb.y, reading.rgb.z}},
+                           {"unit", unit(reading.type)},
+                           {"half_width_95", reading.half_width_95}});
+    return nlohmann::json{{"sensors", std::move(sensors)}}.dump(2) + "\n";
+}
+
+/// A field as RFC 4180 quotes it.
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
+std::string as_csv(const Readings& readings) {
+    std::string text = "name,type,value,r,g,b,unit,half_width_95\n";
+    for (const SensorReading& r : readings)
+        text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.4g}\n", csv_field(r.name), type_name(r.type), r.value, r.rgb.x,
+                            r.rgb.y, r.rgb.z, unit(r.type), r.half_width_95);
+    return text;
+}
+
+Result<void> measure(const MeasureOptions& options) {
+    auto scene = load(options.scene);
+    if (!scene) return tl::unexpected(scene.error());
+    if (scene->sensors().size() == 0) return fail(options.scene.path, "expected sensors to measure, found none");
+    auto readings = options.engine == Engine::path ? measure_with_paths(*scene, options) : measure_in_real_time(*scene, options);
+    if (interrupted()) return fail("", "interrupted");
+    if (!readings) return tl::unexpected(readings.error());
+    print(options.json ? as_json(*readings) : as_csv(*readings));
+    return {};
+}
+
+}  // namespace
+
+Action declare_measure(CLI::App& command) {
+    auto options = std::make_shared<MeasureOptions>();
+    add_scene_argument(command, options->scene);
+    command.add_option_function<std::string>(
+        "--engine", [options = options.get()](const std::string& text) { options->engine = read_engine(text); },
+        "path (default) or realtime (direct light and sky)");
+    command.add_option("--spp", options->samples, "Path engine: samples a sensor; default 4096")->check(CLI::PositiveNumber);
+    command.add_option("--max-depth", options->max_depth, "Scattering events, 1 = direct light; default unlimited")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--seed", options->seed, "Seed of the samples")->check(CLI::NonNegativeNumber);
+    command.add_flag("--no-environment", options->no_environment, "The sky gives no light");
+    command.add_option("--device", options->device.device, "Real-time engine: Vulkan device, by number or part of its name");
+    command.add_flag("--json", options->json, "Print JSON instead of CSV");
+    return [options] { return measure(*options); };
+}
+
+}  // namespace heliodon::cli

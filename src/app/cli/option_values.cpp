@@ -1,0 +1,93 @@
+#include "app/cli/option_values.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+namespace heliodon::cli {
+namespace {
+
+[[noreturn]] void refuse(const std::string& option, const std::string& expected, const std::string& found) {
+    throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, found));
+}
+
+template <class Number>
+std::optional<Number> read_number(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+Engine read_engine(const std::string& text) {
+    if (text == "realtime") return Engine::realtime;
+    if (text == "path") return Engine::path;
+    refuse("--engine", "realtime or path", text);
+}
+
+Size read_size(const std::string& text) {
+    constexpr int largest = 16384;  // a side that every Vulkan 1.3 device of note can render to
+    const std::size_t x = text.find('x');
+    if (x != std::string::npos) {
+        const auto width = read_number<int>(std::string_view(text).substr(0, x));
+        const auto height = read_number<int>(std::string_view(text).substr(x + 1));
+        const auto fits = [](auto side) { return side && *side >= 1 && *side <= largest; };
+        if (fits(width) && fits(height)) return {*width, *height};
+    }
+    refuse("--size", fmt::format("WIDTHxHEIGHT, each from 1 to {}", largest), text);
+}
+
+FrameRange read_frames(const std::string& text) {
+    const std::size_t dots = text.find("..");
+    if (dots != std::string::npos) {
+        const auto first = read_number<int>(std::string_view(text).substr(0, dots));
+        const auto last = read_number<int>(std::string_view(text).substr(dots + 2));
+        if (first && last && *first >= 0 && *last >= *first) return {*first, *last};
+    }
+    refuse("--frames", "FIRST..LAST, whole numbers, FIRST not over LAST", text);
+}
+
+std::vector<std::string> read_aovs(const std::string& text) {
+    static constexpr std::string_view known[] = {"albedo", "normal", "depth", "position", "direct", "indirect"};
+    std::vector<std::string> names = CLI::detail::split(text, ',');
+    for (const std::string& name : names)
+        if (std::find(std::begin(known), std::end(known), name) == std::end(known))
+            refuse("--aov", "names out of albedo, normal, depth, position, direct, indirect", name);
+    return names;
+}
+
+float read_ev100(const std::string& text) {
+    if (text == "auto") throw CLI::ValidationError("--ev100", "this version has no automatic exposure: expected a number");
+    const auto value = read_number<float>(text);
+    if (!value || !std::isfinite(*value)) refuse("--ev100", "a number", text);
+    return *value;
+}
+
+void check_tonemap(const std::string& text) {
+    if (text != "hable") refuse("--tonemap", "hable (the tone curve that this version has)", text);
+}
+
+void check_gi(const std::string& text) {
+    if (text != "none") refuse("--gi", "none (this version's real-time engine renders direct light)", text);
+}
+
+std::string numbered_path(const std::string& path, int frame) {
+    const std::size_t name = path.find_last_of('/') == std::string::npos ? 0 : path.find_last_of('/') + 1;
+    const std::size_t first = path.find('#', name);
+    if (first != std::string::npos) {
+        const std::size_t end = std::min(path.find_first_not_of('#', first), path.size());
+        return path.substr(0, first) + fmt::format("{:0{}}", frame, end - first) + path.substr(end);
+    }
+    const std::size_t ending = std::min(path.find_last_of('.'), path.size());
+    const std::size_t at = ending < name ? path.size() : ending;
+    return path.substr(0, at) + fmt::format("-{:04}", frame) + path.substr(at);
+}
+
+}  // namespace heliodon::cli

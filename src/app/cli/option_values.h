@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heliodon::cli {
+
+enum class Engine { realtime, path };
+
+/// Readers for option values. What they cannot read is thrown as CLI::ValidationError naming `option`.
+[[nodiscard]] Engine read_engine(const std::string& text);
+
+struct Size {
+    int width = 1024, height = 768;
+};
+/// `WIDTHxHEIGHT`, each from 1 to 16384.
+[[nodiscard]] Size read_size(const std::string& text);
+
+struct FrameRange {
+    int first = 0, last = 0;
+};
+/// `A..B`, both included, A ≤ B, not negative.
+[[nodiscard]] FrameRange read_frames(const std::string& text);
+
+/// Comma-separated names out of albedo, normal, depth, position, direct, indirect.
+[[nodiscard]] std::vector<std::string> read_aovs(const std::string& text);
+
+/// A number; `auto` and other tone and exposure choices that this version lacks are said to be lacking.
+[[nodiscard]] float read_ev100(const std::string& text);
+/// Accepts the tone curves that this version has.
+void check_tonemap(const std::string& text);
+/// Accepts the kinds of global illumination that this version has.
+void check_gi(const std::string& text);
+
+/// `path` for frame `frame`: a run of # becomes the number with that many digits; without one, `-0000` goes
+/// before the ending.
+[[nodiscard]] std::string numbered_path(const std::string& path, int frame);
+
+}  // namespace heliodon::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "core/result.h"
+
+namespace heliodon::cli {
+
+/// Before any work is done: every picture's ending is known and its directory can be written to.
+[[nodiscard]] Result<void> check_pictures_writable(const std::vector<std::string>& paths);
+/// The same for a file of another kind (statistics).
+[[nodiscard]] Result<void> check_text_writable(const std::filesystem::path& path);
+
+/// Writes by ending: .exr, .hdr, .pfm as measured; .png, .jpg exposed, tone-mapped (Hable) and sRGB-encoded.
+[[nodiscard]] Result<void> write_rendered(const std::filesystem::path& path, const Picture& picture);
+
+/// Peak resident memory of this process.
+[[nodiscard]] std::uint64_t peak_rss_bytes();
+
+}  // namespace heliodon::cli

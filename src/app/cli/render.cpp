@@ -1,0 +1,257 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/cli/commands.h"
+#include "app/cli/option_values.h"
+#include "app/cli/outputs.h"
+#include "app/cli/scene_argument.h"
+#include "app/cli/terminal.h"
+#include "core/image_io.h"
+#include "realtime/renderer.h"
+#include "trace/path_tracer.h"
+
+namespace heliodon::cli {
+namespace {
+
+using nlohmann::json;
+
+struct RenderOptions {
+    SceneArgument scene;
+    std::vector<std::string> outputs;
+    Engine engine = Engine::realtime;
+    Size size;
+    std::string camera;
+    RealtimeSettings device;
+    std::uint32_t seed = 0;
+    int samples = 64;
+    std::optional<double> seconds;
+    int max_depth = 0;
+    int threads = 0;
+    bool no_environment = false;
+    bool gi_given = false;
+    std::optional<float> ev100;
+    std::vector<std::string> aovs;
+    std::string stats;
+    bool json = false;
+    std::optional<FrameRange> frames;
+    double fps = 24;
+    int frames_timed = 0;
+};
+
+/// What one of the engines made, and its numbers as `--stats` has them.
+struct Rendered {
+    Picture picture;
+    json statistics;
+    std::string summary;
+};
+
+/// One engine behind one call; both follow the same scene object from frame to frame.
+class Renderer {
+public:
+    virtual ~Renderer() = default;
+    [[nodiscard]] virtual Result<Rendered> render(const Scene& scene, const Camera& camera, const Progress& progress) = 0;
+};
+
+class PathRenderer final : public Renderer {
+public:
+    explicit PathRenderer(const RenderOptions& options) {
+        options_.width = options.size.width;
+        options_.height = options.size.height;
+        options_.samples_per_pixel = options.samples;
+        options_.seconds = options.seconds;
+        options_.max_depth = options.max_depth;
+        options_.environment = !options.no_environment;
+        options_.seed = options.seed;
+        options_.threads = options.threads;
+        options_.aovs = options.aovs;
+    }
+
+    Result<Rendered> render(const Scene& scene, const Camera& camera, const Progress& progress) override {
+        if (auto updated = tracer_.update(scene); !updated) return tl::unexpected(updated.error());
+        PathStatistics numbers;
+        auto picture = tracer_.render(scene, camera, options_, &numbers, progress);
+        if (!picture) return tl::unexpected(picture.error());
+        const double rate = numbers.seconds > 0 ? static_cast<double>(numbers.rays) / numbers.seconds : 0;
+        return Rendered{std::move(*picture),
+                        {{"seconds", numbers.seconds},
+                         {"spp", numbers.samples_per_pixel},
+                         {"rays_per_second", rate},
+                         {"peak_rss_bytes", peak_rss_bytes()}},
+                        fmt::format("path tracer: {:.2f} s, {} samples a pixel, {:.2f} million rays a second",
+                                    numbers.seconds, numbers.samples_per_pixel, rate * 1e-6)};
+    }
+
+private:
+    PathTracer tracer_;
+    PathOptions options_;
+};
+
+class RealtimePictureRenderer final : public Renderer {
+public:
+    RealtimePictureRenderer(RealtimeRenderer renderer, const RenderOptions& options) : renderer_(std::move(renderer)) {
+        options_.width = options.size.width;
+        options_.height = options.size.height;
+        options_.samples = options.samples;
+        options_.seed = options.seed;
+        options_.environment = !options.no_environment;
+        options_.frames_timed = options.frames_timed;
+        options_.aovs = options.aovs;
+    }
+
+    Result<Rendered> render(const Scene& scene, const Camera& camera, const Progress& progress) override {
+        if (auto updated = renderer_.update(scene); !updated) return tl::unexpected(updated.error());
+        RealtimeStatistics numbers;
+        auto picture = renderer_.render(scene, camera, options_, &numbers, progress);
+        if (!picture) return tl::unexpected(picture.error());
+        json passes = json::array();
+        std::string summary = fmt::format("{}: {:.3f} ms a frame on the GPU", numbers.device, numbers.gpu_ms_total);
+        for (const PassTime& pass : numbers.passes) {
+            passes.push_back({{"name", pass.name}, {"gpu_ms", pass.gpu_ms}});
+            summary += fmt::format("\n  {:<28}{:10.3f} ms", pass.name, pass.gpu_ms);
+        }
+        return Rendered{std::move(*picture),
+                        {{"gpu_ms_total", numbers.gpu_ms_total},
+                         {"passes", std::move(passes)},
+                         {"cpu_ms", numbers.cpu_ms},
+                         {"device", numbers.device},
+                         {"gpu_memory_bytes", numbers.gpu_memory_bytes},
+                         {"peak_rss_bytes", peak_rss_bytes()}},
+                        std::move(summary)};
+    }
+
+private:
+    RealtimeRenderer renderer_;
+    RealtimeOptions options_;
+};
+
+Result<std::unique_ptr<Renderer>> create_renderer(const RenderOptions& options) {
+    if (options.engine == Engine::path) return std::make_unique<PathRenderer>(options);
+    auto renderer = RealtimeRenderer::create(options.device);
+    if (!renderer) return tl::unexpected(renderer.error());
+    return std::make_unique<RealtimePictureRenderer>(std::move(*renderer), options);
+}
+
+std::vector<std::string> frame_outputs(const RenderOptions& options, int frame) {
+    std::vector<std::string> paths;
+    for (const std::string& path : options.outputs)
+        paths.push_back(options.frames ? numbered_path(path, frame) : path);
+    return paths;
+}
+
+/// Option values that are each right but do not go together.
+void check_together(const RenderOptions& options) {
+    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(),
+                                     [](const std::string& path) { return CLI::detail::to_lower(path).ends_with(".exr"); });
+    if (!options.aovs.empty() && !has_exr) throw CLI::ValidationError("--aov", "expected an .exr output to hold the layers");
+    if (options.engine == Engine::realtime && (options.seconds || options.max_depth != 0))
+        throw CLI::ValidationError(options.seconds ? "--seconds" : "--max-depth", "expected with --engine path");
+    if (options.engine == Engine::path && options.frames_timed > 0)
+        throw CLI::ValidationError("--frames-timed", "expected with --engine realtime");
+}
+
+Result<void> render_frame(Renderer& renderer, const Scene& scene, const RenderOptions& options, int frame, json& statistics) {
+    auto camera = choose_camera(scene, options.scene, options.camera);
+    if (!camera) return tl::unexpected(camera.error());
+    if (options.ev100) camera->ev100_override = options.ev100;
+
+    ProgressBar bar(options.frames ? fmt::format("frame {}", frame) : "render");
+    auto rendered = renderer.render(scene, *camera, bar.callback());
+    if (interrupted()) return fail("", "interrupted");
+    if (!rendered) return tl::unexpected(rendered.error());
+    rendered->picture.ev100 = camera->ev100();
+    rendered->picture.has_ev100 = true;
+    for (const std::string& path : frame_outputs(options, frame))
+        if (auto written = write_rendered(path, rendered->picture); !written) return written;
+    if (!options.frames) {
+        say(rendered->summary);
+        statistics = std::move(rendered->statistics);
+    } else {
+        rendered->statistics["frame"] = frame;
+        statistics["frames"].push_back(std::move(rendered->statistics));
+    }
+    return {};
+}
+
+Result<void> render(const RenderOptions& options) {
+    check_together(options);
+    const FrameRange range = options.frames.value_or(FrameRange{0, 0});
+    if (auto checked = check_pictures_writable(frame_outputs(options, range.first)); !checked) return checked;
+    if (!options.stats.empty())
+        if (auto checked = check_text_writable(options.stats); !checked) return checked;
+
+    auto scene = load(options.scene);
+    if (!scene) return tl::unexpected(scene.error());
+    const std::string& gi = scene->render_settings().gi;
+    if (options.engine == Engine::realtime && !options.gi_given && gi != "none")
+        report_warnings({{options.scene.path, "render.gi \"" + gi + "\" is not in this version: rendering direct light"}});
+    auto renderer = create_renderer(options);
+    if (!renderer) return tl::unexpected(renderer.error());
+
+    json statistics = json::object();
+    for (int frame = range.first; frame <= range.last; ++frame) {
+        if (options.frames) scene->apply_animations(frame / options.fps);
+        if (auto done = render_frame(**renderer, *scene, options, frame, statistics); !done) return done;
+    }
+    if (options.json) print(statistics.dump(2) + "\n");
+    if (!options.stats.empty()) return write_file_atomically(options.stats, statistics.dump(2) + "\n");
+    return {};
+}
+
+void declare_engine_options(CLI::App& command, RenderOptions& options) {
+    using Text = const std::string&;
+    command.add_option_function<std::string>("--engine", [&](Text text) { options.engine = read_engine(text); },
+                                             "realtime (default) or path");
+    command.add_option("--seed", options.seed, "Seed of the samples")->check(CLI::NonNegativeNumber);
+    command.add_flag("--no-environment", options.no_environment, "The sky gives no light and is black");
+    command.add_option_function<std::string>(
+        "--gi", [&](Text text) { check_gi(text), options.gi_given = true; }, "Global illumination: none (real-time engine)");
+    command.add_option("--spp", options.samples, "Samples a pixel (real-time engine: frames averaged); default 64")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--seconds", options.seconds, "Path engine: stop after this long instead")->check(CLI::PositiveNumber);
+    command.add_option("--max-depth", options.max_depth, "Path engine: scattering events, 1 = direct light; default unlimited")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--threads", options.threads, "Path engine: threads; default all cores")->check(CLI::PositiveNumber);
+    command.add_option("--device", options.device.device, "Real-time engine: Vulkan device, by number or part of its name");
+    command.add_flag("--validation", options.device.validation, "Real-time engine: with Vulkan's validation layer");
+    command
+        .add_option("--shaders", options.device.shader_directory, "Real-time engine: compile the shaders of this directory")
+        ->check(CLI::ExistingDirectory);
+    command.add_option("--frames-timed", options.frames_timed, "Real-time engine: time so many frames after warm-up")
+        ->check(CLI::PositiveNumber);
+}
+
+void declare_picture_options(CLI::App& command, RenderOptions& options) {
+    using Text = const std::string&;
+    command.add_option("-o,--output", options.outputs, ".exr .hdr .pfm (measured values) .png .jpg (tone-mapped); may be repeated")
+        ->required()
+        ->allow_extra_args(false);
+    command.add_option_function<std::string>("--size", [&](Text text) { options.size = read_size(text); },
+                                             "WIDTHxHEIGHT; default 1024x768");
+    command.add_option("--camera", options.camera, "Name of the camera; default the first");
+    command.add_option_function<std::string>("--ev100", [&](Text text) { options.ev100 = read_ev100(text); },
+                                             "Exposure, instead of the camera's");
+    command.add_option_function<std::string>("--tonemap", [](Text text) { check_tonemap(text); }, "Tone curve: hable");
+    command.add_option_function<std::string>("--aov", [&](Text text) { options.aovs = read_aovs(text); },
+                                             "Extra EXR layers: albedo,normal,depth,position,direct,indirect");
+    command.add_option_function<std::string>("--frames", [&](Text text) { options.frames = read_frames(text); },
+                                             "FIRST..LAST of the animation, one numbered output each (### in its name)");
+    command.add_option("--fps", options.fps, "Frames a second of the animation; default 24")->check(CLI::PositiveNumber);
+    command.add_option("--stats", options.stats, "Write the numbers of the run to this JSON file");
+    command.add_flag("--json", options.json, "Print the numbers of the run as JSON");
+}
+
+}  // namespace
+
+Action declare_render(CLI::App& command) {
+    auto options = std::make_shared<RenderOptions>();
+    add_scene_argument(command, options->scene);
+    declare_picture_options(command, *options);
+    declare_engine_options(command, *options);
+    return [options] { return render(*options); };
+}
+
+}  // namespace heliodon::cli

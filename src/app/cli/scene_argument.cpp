@@ -1,0 +1,50 @@
+#include "app/cli/scene_argument.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/terminal.h"
+#include "import/import.h"
+
+namespace heliodon::cli {
+
+void add_scene_argument(CLI::App& command, SceneArgument& argument) {
+    command.add_option("SCENE", argument.path, "A scene file (*.heliodon.json) or a model (.obj, .gltf, .glb)")->required();
+    command
+        .add_option("--set", argument.overrides,
+                    "PATH=VALUE: override a field of the scene file (render.gi=none, nodes.bulb.light.flux_lm=900)")
+        ->allow_extra_args(false)
+        ->check([](const std::string& text) {
+            const std::size_t equals = text.find('=');
+            return equals == std::string::npos || equals == 0 ? "expected PATH=VALUE, found \"" + text + "\"" : "";
+        });
+}
+
+Result<Scene> load(const SceneArgument& argument, Warnings& warnings) {
+    std::vector<Override> overrides;
+    for (const std::string& text : argument.overrides) {
+        const std::size_t equals = text.find('=');
+        overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+    return load_scene(argument.path, overrides, warnings);
+}
+
+Result<Scene> load(const SceneArgument& argument) {
+    Warnings warnings;
+    auto scene = load(argument, warnings);
+    if (scene) report_warnings(warnings);
+    return scene;
+}
+
+Result<Camera> choose_camera(const Scene& scene, const SceneArgument& argument, const std::string& name) {
+    if (scene.cameras().size() == 0) return fail(argument.path, "expected at least one camera, found none");
+    std::optional<Camera> chosen;
+    std::string names;
+    scene.cameras().each([&](CameraId, const Camera& camera) {
+        if (!chosen && (name.empty() || camera.name == name)) chosen = camera;
+        names += (names.empty() ? "\"" : ", \"") + camera.name + "\"";
+    });
+    if (!chosen) return fail(argument.path, "expected a camera named \"" + name + "\", found " + names);
+    return *chosen;
+}
+
+}  // namespace heliodon::cli

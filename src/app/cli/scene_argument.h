@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "scene/scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace heliodon::cli {
+
+/// `SCENE` and `--set PATH=VALUE`, which several commands take.
+struct SceneArgument {
+    std::string path;
+    std::vector<std::string> overrides;
+};
+
+void add_scene_argument(CLI::App& command, SceneArgument& argument);
+[[nodiscard]] Result<Scene> load(const SceneArgument& argument, Warnings& warnings);
+/// The same, with its warnings reported on standard error.
+[[nodiscard]] Result<Scene> load(const SceneArgument& argument);
+/// The camera of that name, or the scene's first where `name` is empty.
+[[nodiscard]] Result<Camera> choose_camera(const Scene& scene, const SceneArgument& argument, const std::string& name);
+
+}  // namespace heliodon::cli
