@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
 #include <random>
+#include <tuple>
 
 namespace heliodon::convert {
 namespace {
@@ -15,22 +18,32 @@ Geometry triangle() {
     return geometry;
 }
 
+Node node_with(std::string name, std::vector<Part> parts, glm::vec3 translation = {}, std::optional<Light> light = {}) {
+    Node node;
+    node.name = std::move(name);
+    node.parts = std::move(parts);
+    node.transform.translation = translation;
+    node.light = light;
+    return node;
+}
+
+Light candela(float value) {
+    Light light;
+    light.intensity = glm::vec3(value);
+    return light;
+}
+
 struct Small : testing::Test {
     Scene scene;
     GeometryId geometry = scene.add_geometry(triangle());
-    MaterialId material = scene.add_material({.name = "white"});
+    MaterialId material = scene.add_material({});
     NodeId parent, child, lamp;
     FlatScene flat;
 
     void SetUp() override {
-        Node part{.name = "parent", .parts = {{geometry, material}}};
-        parent = scene.add_node(part);
-        part.name = "child";
-        part.transform.translation = {1, 0, 0};
-        child = scene.add_node(part, parent);
-        Node light{.name = "lamp", .light = Light{.intensity = glm::vec3(3)}};
-        light.transform.translation = {0, 2, 0};
-        lamp = scene.add_node(light, parent);
+        parent = scene.add_node(node_with("parent", {{geometry, material}}));
+        child = scene.add_node(node_with("child", {{geometry, material}}, {1, 0, 0}), parent);
+        lamp = scene.add_node(node_with("lamp", {}, {0, 2, 0}, candela(3)), parent);
         EXPECT_TRUE(flat.update(scene).everything);
     }
 };
@@ -112,7 +125,7 @@ TEST_F(Small, slots_of_removed_nodes_are_used_again) {
     const auto instances = flat.instances().size();
     for (int i = 0; i < 10; ++i) {
         ASSERT_TRUE(scene.remove(child));
-        child = scene.add_node({.name = "child", .parts = {{geometry, material}}}, parent);
+        child = scene.add_node(node_with("child", {{geometry, material}}), parent);
         flat.update(scene);
     }
     EXPECT_EQ(flat.instances().size(), instances);
@@ -120,7 +133,9 @@ TEST_F(Small, slots_of_removed_nodes_are_used_again) {
 
 TEST(FlatScene, a_texture_size_limit_skips_the_levels_above_it) {
     Scene scene;
-    Texture texture{.width = 1024, .height = 256};
+    Texture texture;
+    texture.width = 1024;
+    texture.height = 256;
     for (int size = 1024; size >= 1; size /= 2) texture.levels.emplace_back(4);
     scene.add_texture(texture);
     FlatScene flat;
@@ -155,26 +170,26 @@ TEST(FlatScene, following_the_journal_equals_building_from_scratch_for_any_edits
     followed.update(scene);
     const auto any = [&](auto& list) { return list[random() % list.size()]; };
     for (int step = 0; step < 2000; ++step) {
-        const auto action = nodes.size() < 3 ? 0 : random() % 9;
+        const auto action = nodes.size() < 3 ? 0 : random() % (nodes.size() < 40 ? 16 : 9);  // growing to some 40 nodes
         Transform transform;
         transform.translation = {float(random() % 100), float(random() % 100), 0};
-        switch (action) {
+        switch (action > 8 ? 0 : action) {
             case 0: {
-                Node node{.transform = transform, .parts = {{any(geometries), any(materials)}}};
-                if (random() % 3 == 0) node.light = Light{.intensity = glm::vec3(1)};
+                const auto light = random() % 3 == 0 ? std::optional(candela(1)) : std::nullopt;
+                const Node node = node_with("", {{any(geometries), any(materials)}}, transform.translation, light);
                 nodes.push_back(scene.add_node(node, nodes.empty() || random() % 2 ? NodeId{} : any(nodes)));
                 break;
             }
             case 1: scene.set_transform(any(nodes), transform); break;
             case 2: scene.set_visible(any(nodes), random() % 2); break;
             case 3: scene.set_parts(any(nodes), std::vector<Part>(random() % 4, {any(geometries), any(materials)})); break;
-            case 4: scene.set_light(any(nodes), random() % 2 ? std::optional(Light{.intensity = glm::vec3(2)}) : std::nullopt); break;
+            case 4: scene.set_light(any(nodes), random() % 2 ? std::optional(candela(2)) : std::nullopt); break;
             case 5: scene.set_parent(any(nodes), any(nodes)); break;
             case 6: scene.remove(any(nodes)); break;
             case 7: {
                 const std::size_t k = random() % materials.size();
                 scene.remove(materials[k]);
-                materials[k] = scene.add_material({.metallic = float(step)});
+                materials[k] = scene.add_material({});
                 break;
             }
             case 8: {
