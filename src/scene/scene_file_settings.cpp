@@ -1,0 +1,136 @@
+// Cameras, sensors, sky, and the convert, render and probes blocks.
+#include "scene/scene_file_parts.h"
+
+namespace heliodon::scene_file {
+namespace {
+
+constexpr Range field_of_view_deg{.low = 0, .high = 180, .low_excluded = true, .high_excluded = true};
+
+void check_view(const JsonCursor& cursor, const Camera& camera) {
+    const glm::dvec3 view = glm::dvec3(camera.target) - glm::dvec3(camera.position), up = camera.up;
+    if (!(glm::length(view) > 0))
+        throw Refusal{cursor.path(), "expected position and target apart, found the same point"};
+    constexpr double smallest_sine = 1e-6;  // single precision tells no smaller angle apart
+    if (!(glm::length(glm::cross(view, up)) > smallest_sine * glm::length(view) * glm::length(up)))
+        throw Refusal{cursor.path(), "expected an up vector that is not along the view direction or 0, found one"};
+    if (camera.far_m > 0 && camera.far_m <= camera.near_m)
+        throw Refusal{cursor.path(), "expected far_m beyond near_m (or 0: infinite), found it nearer"};
+}
+
+/// What daylight models use. Checked here; the models that exist are without a sun.
+void check_daylight(ObjectReader& sky) {
+    constexpr Range latitude{.low = -90, .high = 90}, longitude{.low = -180, .high = 180};
+    float ignored = 0;
+    int ignored_type = 0;
+    sky.read("turbidity", ignored, Range{.low = 1, .high = 64});
+    sky.read("ground_albedo", ignored, unit_interval);
+    sky.read("cie_type", ignored_type, 1, 15);
+    sky.read("zenith_luminance_nits", ignored, not_negative);
+    sky.read("latitude_deg", ignored, latitude);
+    sky.read("longitude_deg", ignored, longitude);
+    if (const auto time = sky.find("time")) (void)time->name();
+    if (const auto sun = sky.find("sun")) sun->refuse_as_unsupported("suns in the sky", "none with this sky model");
+}
+
+SkyModel read_sky_model(ObjectReader& sky) {
+    const auto model = sky.find("model");
+    if (!model) return SkyModel::none;
+    for (const char* daylight : {"preetham", "hosek", "cie"})
+        if (model->json() == daylight)
+            model->refuse_as_unsupported("daylight models", "one of \"none\", \"constant\", \"image\"");
+    return model->one_of<SkyModel>(
+        {{"none", SkyModel::none}, {"constant", SkyModel::constant}, {"image", SkyModel::image}});
+}
+
+}  // namespace
+
+Camera read_camera(const JsonCursor& cursor) {
+    ObjectReader object(cursor);
+    Camera camera;
+    camera.name = object.require("name").name();
+    object.read("position", camera.position);
+    object.read("target", camera.target);
+    object.read("up", camera.up);
+    object.read_degrees("vertical_fov_deg", camera.vertical_fov_rad, field_of_view_deg);
+    object.read("near_m", camera.near_m, not_negative);
+    object.read("far_m", camera.far_m, not_negative);
+    object.read("aperture_f", camera.aperture_f, positive);
+    object.read("shutter_s", camera.shutter_s, positive);
+    object.read("iso", camera.iso, positive);
+    if (const auto ev100 = object.find("ev100")) camera.ev100_override = ev100->number();
+    object.finish();
+    check_view(cursor, camera);
+    return camera;
+}
+
+Sensor read_sensor(const JsonCursor& cursor) {
+    ObjectReader object(cursor);
+    Sensor sensor;
+    sensor.name = object.require("name").name();
+    sensor.type = object.require("type").one_of<SensorType>(
+        {{"illuminance", SensorType::illuminance}, {"luminance", SensorType::luminance}});
+    sensor.position = object.require("position").vector();
+    sensor.direction = object.require(sensor.type == SensorType::illuminance ? "normal" : "direction").unit_vector();
+    object.finish();
+    return sensor;
+}
+
+SkyBlock read_sky(const JsonCursor& cursor) {
+    ObjectReader object(cursor);
+    SkyBlock block;
+    block.sky.model = read_sky_model(object);
+    if (block.sky.model == SkyModel::image) block.sky.luminance_nits = glm::vec3(1);
+    const auto luminance =
+        block.sky.model == SkyModel::constant ? object.require("luminance_nits") : object.find("luminance_nits");
+    if (luminance) block.sky.luminance_nits = luminance->number_or_vector(not_negative);
+    const auto image = block.sky.model == SkyModel::image ? object.require("image") : object.find("image");
+    if (image && block.sky.model == SkyModel::image)
+        block.image = image->file();
+    else if (image)
+        (void)image->file();
+    object.read_degrees("north_deg", block.sky.north_rad, any_number);
+    check_daylight(object);
+    object.finish();
+    return block;
+}
+
+ConvertSettings read_convert_settings(const JsonCursor& cursor) {
+    constexpr int largest_texture = 65536, fewest_segments = 3, most_segments = 1024;
+    ObjectReader object(cursor);
+    ConvertSettings settings;
+    object.read("texture_size_limit", settings.texture_size_limit, 0, largest_texture);
+    object.read("shape_segments", settings.shape_segments, fewest_segments, most_segments);
+    if (const auto precision = object.find("vertex_precision"))
+        settings.vertex_precision = precision->one_of<ConvertSettings::Precision>(
+            {{"full", ConvertSettings::Precision::full}, {"compact", ConvertSettings::Precision::compact}});
+    object.finish();
+    return settings;
+}
+
+RenderSettings read_render_settings(const JsonCursor& cursor) {
+    constexpr int most_voxels = 1024, smallest_shadow_map = 16, largest_shadow_map = 16384;
+    ObjectReader object(cursor);
+    RenderSettings settings;
+    if (const auto gi = object.find("gi"))
+        settings.gi = gi->one_of<std::string>(
+            {{"none", "none"}, {"vct", "vct"}, {"probes", "probes"}, {"lightmaps", "lightmaps"}});
+    object.read("voxels", settings.voxels, 1, most_voxels);
+    if (const auto tonemap = object.find("tonemap"))
+        settings.tonemap = tonemap->one_of<std::string>({{"hable", "hable"}});
+    object.read("shadow_map_size", settings.shadow_map_size, smallest_shadow_map, largest_shadow_map);
+    object.finish();
+    return settings;
+}
+
+void check_probes(const JsonCursor& cursor) {
+    constexpr int most_probes_a_side = 4096;
+    ObjectReader object(cursor);
+    const glm::vec3 low = object.require("min").vector(), high = object.require("max").vector();
+    const JsonCursor counts = object.require("counts");
+    if (!counts.json().is_array() || counts.json().size() != 3) counts.refuse("a list of 3 whole numbers");
+    for (const JsonCursor& count : counts.elements()) (void)count.integer(1, most_probes_a_side);
+    if (glm::any(glm::greaterThan(low, high))) object.require("max").refuse("a corner not below min");
+    object.finish();
+}
+
+}  // namespace heliodon::scene_file
