@@ -73,10 +73,13 @@ struct BsdfLobes {
     vec3 diffuse;              // base colour / (π · average of dielectric_below)
     float coat_albedo;         // clearcoat · albedo of the coat at wo
     float coat_average;
+    float glass_lost;           // 1 − albedo of single scattering in glass at wo
+    float glass_through;        // share of the glass's multiple scattering that goes through
     float probability_specular;  // of sampling each lobe
     float probability_diffuse;
     float probability_glass;
     float probability_coat;
+    float probability_through;  // the cosine lobe on the far side
 };
 
 SHADING_CONST float clearcoat_f0 = 0.04f;  // KHR_materials_clearcoat: index 1.5
@@ -91,6 +94,20 @@ SHADING_FN float coat_directional_albedo(Surface s, vec2 split) {
 /// sum conserves energy and stays reciprocal, exact over a mirror.
 SHADING_FN float coat_transmittance(float coat_albedo_o, float coat_albedo_i) {
     return 1.0f - max(coat_albedo_o, coat_albedo_i);
+}
+
+/// Share of glass's multiple scattering that is refracted: Kulla & Conty 2017. The two sides' shares are
+/// in the ratio that makes refraction reciprocal, (1 − Favg)/(1 − Eavg), scaled so that neither exceeds
+/// what Fresnel's average lets through from the thin side, nor 1.
+SHADING_FN float glass_multiple_through(float alpha, float eta) {
+    float inverse = 1.0f / eta;
+    float passed = 1.0f - glass_fresnel_average(eta);
+    float passed_back = 1.0f - glass_fresnel_average(inverse);
+    float lost = max(1.0f - glass_albedo_average(alpha, eta), 1.0e-6f);
+    float lost_back = max(1.0f - glass_albedo_average(alpha, inverse), 1.0e-6f);
+    float thin_lost = eta >= 1.0f ? lost : lost_back;
+    float scale = min(thin_lost, min(lost / passed, lost_back / passed_back));
+    return scale * passed / lost;
 }
 
 /// Diffuse part of the directional albedo (what a sky's irradiance/π is multiplied by).
@@ -161,27 +178,38 @@ SHADING_FN BsdfLobes bsdf_prepare(Surface s, vec3 wo) {
         l.coat_average = coat_directional_albedo(s, ggx_albedo_split_average(l.coat_alpha));
     }
 
+    l.glass_lost = 0.0f;
+    l.glass_through = 0.0f;
+    if (l.glass > 0.0f) {
+        l.glass_lost = 1.0f - glass_albedo(wo.z, l.alpha, l.eta);
+        l.glass_through = glass_multiple_through(l.alpha, l.eta);
+    }
+
     // Lobes are sampled in proportion to the light they return.
     vec3 single = (s.base_color * l.split.x + vec3(l.split.y)) * l.metal +
                   (l.dielectric_f0 * l.split.x + vec3(l.dielectric_f90 * l.split.y)) * l.dielectric;
     vec3 multiple = (l.metal_multiple * l.metal + l.dielectric_multiple * l.dielectric) * (1.0f - l.albedo);
     float below_coat = 1.0f - l.coat_albedo;
     float specular = luminance(single) * below_coat;
-    float diffuse = luminance(multiple + s.base_color * l.dielectric_below * l.dielectric) * below_coat;
-    float glass = max(luminance(l.transmission_color), 0.04f) * l.glass * below_coat;
+    float diffuse = luminance(multiple + s.base_color * l.dielectric_below * l.dielectric) * below_coat +
+                    l.glass * l.glass_lost * (1.0f - l.glass_through) * below_coat;
+    float through = luminance(l.transmission_color) * l.glass * l.glass_lost * l.glass_through * below_coat;
+    float glass = l.glass * (1.0f - l.glass_lost) * below_coat;
     float coat = l.coat_albedo;
     if (s.model != material_model_standard) {
         specular = 0.0f;
         diffuse = s.model == material_model_lambert ? 1.0f : 0.0f;
         glass = 0.0f;
         coat = 0.0f;
+        through = 0.0f;
     }
-    float sum = specular + diffuse + glass + coat;
+    float sum = specular + diffuse + glass + coat + through;
     float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
     l.probability_specular = specular * scale;
     l.probability_diffuse = diffuse * scale;
     l.probability_glass = glass * scale;
     l.probability_coat = coat * scale;
+    l.probability_through = through * scale;
     return l;
 }
 
@@ -189,6 +217,12 @@ SHADING_FN float glass_fresnel(BsdfLobes l, float cos_theta) { return fresnel_di
 /// Reflectance of glass with KHR_materials_specular's factors; total reflection stays total.
 SHADING_FN vec3 glass_reflectance(BsdfLobes l, float fresnel) {
     return fresnel >= 1.0f ? vec3(1.0f) : min(l.glass_specular * fresnel, vec3(1.0f));
+}
+
+/// (1 − E(μo)) (1 − E(μi)) μi / (π (1 − Eavg)) of glass, E of `mu_i` as seen with relative index `eta_i`.
+SHADING_FN float glass_multiple(BsdfLobes l, float eta_i, float mu_i) {
+    float lost_average = max(1.0f - glass_albedo_average(l.alpha, eta_i), 1.0e-6f);
+    return l.glass_lost * (1.0f - glass_albedo(mu_i, l.alpha, eta_i)) * mu_i * inverse_pi / lost_average;
 }
 
 SHADING_FN vec3 evaluate_reflection(Surface s, BsdfLobes l, vec3 wo, vec3 wi) {
@@ -205,6 +239,10 @@ SHADING_FN vec3 evaluate_reflection(Surface s, BsdfLobes l, vec3 wo, vec3 wi) {
     vec2 split_i = ggx_albedo_split(wi.z, l.alpha);
     float lost = (1.0f - l.albedo) * (1.0f - split_i.x - split_i.y) / max(1.0f - l.albedo_average, 1.0e-6f);
     value += (l.metal_multiple * l.metal + l.dielectric_multiple * l.dielectric) * (lost * inverse_pi * wi.z);
+
+    if (l.glass_lost > 0.0f) {
+        value += vec3((1.0f - l.glass_through) * l.glass * glass_multiple(l, l.eta, wi.z));
+    }
 
     // The same form puts the diffuse base below the dielectric's specular reflection.
     vec3 below_i =
@@ -226,7 +264,9 @@ SHADING_FN vec3 evaluate_transmission(Surface s, BsdfLobes l, vec3 wo, vec3 wi) 
     }
     vec3 h = refraction_half_vector(wo, wi, l.eta);
     float reflected = max_component(glass_reflectance(l, glass_fresnel(l, max(dot(wo, h), 0.0f))));
-    vec3 value = l.transmission_color * ((1.0f - reflected) * l.glass * ggx_refraction(wo, wi, h, l.alpha, l.eta));
+    float single = (1.0f - reflected) * ggx_refraction(wo, wi, h, l.alpha, l.eta);
+    float multiple = l.glass_through * glass_multiple(l, 1.0f / l.eta, -wi.z) / (l.eta * l.eta);
+    vec3 value = l.transmission_color * (l.glass * (single + multiple));
     if (s.clearcoat > 0.0f) {  // the coat lies outside
         float mu = s.inside ? -wi.z : wo.z;
         value = value * (1.0f - coat_directional_albedo(s, ggx_albedo_split(mu, l.coat_alpha)));
@@ -272,7 +312,8 @@ SHADING_FN float bsdf_pdf_prepared(Surface s, BsdfLobes l, vec3 wo, vec3 wi) {
     }
     vec3 h = refraction_half_vector(wo, wi, l.eta);
     float transmittance = 1.0f - glass_fresnel(l, max(dot(wo, h), 0.0f));
-    return l.probability_glass * transmittance * ggx_refraction_pdf(wo, wi, h, l.alpha, l.eta);
+    return l.probability_glass * transmittance * ggx_refraction_pdf(wo, wi, h, l.alpha, l.eta) +
+           l.probability_through * cosine_hemisphere_pdf(-wi.z);
 }
 
 /// `u` is uniform in [0, 1)³: x and y choose the direction, z the lobe.
@@ -289,15 +330,21 @@ SHADING_FN BsdfSample bsdf_sample_prepared(Surface s, BsdfLobes l, vec3 wo, vec3
     float choice = u.z;
     vec2 v = vec2(u.x, u.y);
     vec3 wi = vec3(0.0f, 0.0f, 1.0f);
-    if (choice < l.probability_diffuse) {
+    float below_coat = l.probability_diffuse + l.probability_through;
+    if (choice < below_coat) {
         wi = sample_cosine_hemisphere(v);
-    } else if (choice < l.probability_diffuse + l.probability_coat) {
+        if (choice >= l.probability_diffuse) {
+            wi.z = -wi.z;
+            result.transmitted = true;
+            result.eta_scale = 1.0f / (l.eta * l.eta);
+        }
+    } else if (choice < below_coat + l.probability_coat) {
         vec3 h = ggx_sample_visible_normal(wo, l.coat_alpha, v);
         wi = h * (2.0f * dot(wo, h)) - wo;
     } else {
         vec3 h = ggx_sample_visible_normal(wo, l.alpha, v);
         wi = h * (2.0f * dot(wo, h)) - wo;
-        float below = l.probability_diffuse + l.probability_coat + l.probability_specular;
+        float below = below_coat + l.probability_coat + l.probability_specular;
         if (choice >= below && l.probability_glass > 0.0f) {
             // What is left of the choice decides between reflection and refraction.
             float rest = (choice - below) / l.probability_glass;

@@ -35,15 +35,20 @@ SHADING_FN float ggx_g2(float mu_o, float mu_i, float alpha) {
     return 1.0f / (1.0f + ggx_lambda(mu_o, alpha) + ggx_lambda(mu_i, alpha));
 }
 
-/// A half vector of the visible normals seen from `wo`: Dupuy & Benyoub 2023, "Sampling Visible GGX
-/// Normals with Spherical Caps", listing 3.
-SHADING_FN vec3 ggx_sample_visible_normal(vec3 wo, float alpha, vec2 u) {
-    vec3 o = normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
-    float t = u.y * (1.0f + o.z);  // 1 − z of the cap, kept for its digits
+/// A visible normal from a point of the spherical cap: `stretched` = ggx_stretch(wo), `depth` in [0, 1] from
+/// the cap's pole to its rim. Dupuy & Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps", listing 3.
+SHADING_FN vec3 ggx_cap_normal(vec3 stretched, float alpha, float depth, float cos_phi, float sin_phi) {
+    float t = depth * (1.0f + stretched.z);  // 1 − z, kept for its digits
     float r = sqrt(max(0.0f, t * (2.0f - t)));
+    // z = 1 − t + stretched.z = (1 − depth)(1 + stretched.z)
+    float z = (1.0f - depth) * (1.0f + stretched.z);
+    return normalize(vec3(alpha * (r * cos_phi + stretched.x), alpha * (r * sin_phi + stretched.y), max(z, 1.0e-12f)));
+}
+SHADING_FN vec3 ggx_stretch(vec3 wo, float alpha) { return normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z)); }
+/// A half vector distributed as the normals visible from `wo`.
+SHADING_FN vec3 ggx_sample_visible_normal(vec3 wo, float alpha, vec2 u) {
     float phi = 2.0f * pi * u.x;
-    vec3 h = vec3(r * cos(phi), r * sin(phi), 1.0f - t) + o;
-    return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1.0e-12f)));
+    return ggx_cap_normal(ggx_stretch(wo, alpha), alpha, u.y, cos(phi), sin(phi));
 }
 /// Density of the visible normals per steradian of h: Heitz 2018, eq. 1.
 SHADING_FN float ggx_visible_normal_pdf(vec3 wo, vec3 h, float alpha) {

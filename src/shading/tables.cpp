@@ -1,64 +1,112 @@
 #include "shading/tables.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "shading/fresnel.h"
 #include "shading/ggx_albedo.h"
+#include "shading/quadrature.h"
 
 namespace heliodon::shading {
 namespace {
 
-template <std::size_t N>
-struct GaussLegendre {  // on [0, 1]
-    std::array<double, N> x{}, weight{};
-    GaussLegendre() {
-        // Newton's iteration on the Legendre polynomial from Tricomi's estimate of its roots.
-        for (std::size_t i = 0; i < N; ++i) {
-            double z = std::cos(std::numbers::pi * (i + 0.75) / (N + 0.5)), derivative = 1;
-            for (int iteration = 0; iteration < 20; ++iteration) {
-                double p = 1, previous = 0;
-                for (std::size_t k = 0; k < N; ++k) {
-                    const double next = ((2.0 * k + 1.0) * z * p - k * previous) / (k + 1.0);
-                    previous = p;
-                    p = next;
-                }
-                derivative = N * (z * p - previous) / (z * z - 1.0);
-                z -= p / derivative;
-            }
-            x[i] = 0.5 * (1.0 - z);
-            weight[i] = 1.0 / ((1.0 - z * z) * derivative * derivative);
-        }
+// As many points as a fifth of a second allows; ggx_albedo.h says what error they leave.
+constexpr std::size_t angle_points = 24;
+using Cap = GaussLegendre<12>;
+
+/// The visible normals of one view in the plane y = 0: `height` in [0, 1] is the cube root of the height on
+/// the stretched cap, which spreads the long tail of steep normals that a smooth surface's losses come from.
+struct VisibleNormals {
+    vec3 wo, stretched;
+    float alpha, g1;
+
+    VisibleNormals(float mu, float alpha_)
+        : wo(std::sqrt(std::max(0.0f, 1.0f - mu * mu)), 0.0f, mu), stretched(ggx_stretch(wo, alpha_)), alpha(alpha_),
+          g1(ggx_g1(mu, alpha_)) {}
+    [[nodiscard]] vec3 at(vec2 cos_sin, double height) const {
+        const float depth = static_cast<float>(1.0 - height * height * height);
+        return ggx_cap_normal(stretched, alpha, depth, cos_sin.x, cos_sin.y);
     }
+    [[nodiscard]] float mirrored_z(vec3 h) const { return 2.0f * dot(wo, h) * h.z - wo.z; }
+};
+struct Angle {
+    vec2 cos_sin;
+    double weight;
+};
+/// Half a turn: by symmetry it suffices. Gauss's points crowd at its ends, where grazing views need them.
+std::array<Angle, angle_points> half_turn() {
+    const GaussLegendre<angle_points> rule;
+    std::array<Angle, angle_points> result;
+    for (std::size_t k = 0; k < angle_points; ++k) {
+        const double phi = std::numbers::pi * rule.x[k];
+        result[k] = {vec2(std::cos(phi), std::sin(phi)), rule.weight[k]};
+    }
+    return result;
+}
+struct Rules {
+    Cap cap;
+    GaussLegendre<24> fine_cap;  // rough glass has kinks within: total reflection, refraction upwards
+    std::array<Angle, angle_points> turn = half_turn();
 };
 
-constexpr std::size_t cap_points = 32, angle_points = 24;
+/// The height below which reflections, at one angle, dip under the horizon; the integral is split there to
+/// keep Gauss's rule accurate.
+double horizon(const VisibleNormals& normals, vec2 cos_sin) {
+    double below = 0.0, above = 1.0;
+    for (int step = 0; step < 14; ++step) {
+        const double middle = 0.5 * (above + below);
+        (normals.mirrored_z(normals.at(cos_sin, middle)) > 0.0f ? above : below) = middle;
+    }
+    return above;
+}
 
-/// (A, B): the mean of G2/G1 (1 − (1 − o·h)⁵) and G2/G1 (1 − o·h)⁵ over the visible normals. The half
-/// turn φ in [0, π] suffices by symmetry; the midpoint rule is spectrally accurate in a periodic angle.
-glm::dvec2 directional_albedo(float mu, float alpha, const GaussLegendre<cap_points>& rule) {
-    const vec3 wo(std::sqrt(std::max(0.0f, 1.0f - mu * mu)), 0.0f, mu);
-    const float g1 = ggx_g1(mu, alpha);
+/// (A, B): the mean of G2/G1 (1 − (1 − o·h)⁵) and G2/G1 (1 − o·h)⁵ over the visible normals.
+glm::dvec2 reflection_albedo(float mu, float alpha, const Rules& rules) {
+    const VisibleNormals normals(mu, alpha);
     glm::dvec2 sum(0);
-    for (std::size_t i = 0; i < cap_points; ++i) {
-        for (std::size_t k = 0; k < angle_points; ++k) {
-            const vec2 u(0.5f * (k + 0.5f) / angle_points, static_cast<float>(rule.x[i]));
-            const vec3 h = ggx_sample_visible_normal(wo, alpha, u);
-            const vec3 wi = 2.0f * dot(wo, h) * h - wo;
-            if (wi.z <= 0.0f) continue;
-            const double value = rule.weight[i] / angle_points * ggx_g2(mu, wi.z, alpha) / g1;
-            const double fresnel = schlick_weight(dot(wo, h));
+    for (const auto& [cos_sin, angle_weight] : rules.turn) {
+        const double lowest = horizon(normals, cos_sin);
+        for (std::size_t i = 0; i < rules.cap.x.size(); ++i) {
+            const double height = lowest + (1.0 - lowest) * rules.cap.x[i];
+            const vec3 h = normals.at(cos_sin, height);
+            const float wi_z = normals.mirrored_z(h);
+            if (wi_z <= 0.0f) continue;
+            const double weight = rules.cap.weight[i] * (1.0 - lowest) * 3.0 * height * height * angle_weight;
+            const double value = weight * ggx_g2(mu, wi_z, alpha) / normals.g1;
+            const double fresnel = schlick_weight(dot(normals.wo, h));
             sum += glm::dvec2(1.0 - fresnel, fresnel) * value;
         }
     }
     return sum;
 }
 
+/// Reflection with height-correlated and refraction with separable masking, as bsdf.h has them.
+template <std::size_t N>
+double single_glass_albedo(float mu, float alpha, float eta, const Rules& rules, const GaussLegendre<N>& cap) {
+    const VisibleNormals normals(mu, alpha);
+    double sum = 0;
+    for (const auto& [cos_sin, angle_weight] : rules.turn) {
+        for (std::size_t i = 0; i < N; ++i) {
+            const double height = cap.x[i];
+            const vec3 h = normals.at(cos_sin, height);
+            const float wi_z = normals.mirrored_z(h);
+            const double fresnel = fresnel_dielectric(dot(normals.wo, h), eta);
+            double value = wi_z > 0.0f ? fresnel * ggx_g2(mu, wi_z, alpha) / normals.g1 : 0.0;
+            vec3 refracted;
+            if (refract_about(normals.wo, h, eta, refracted) && refracted.z < 0.0f) {
+                value += (1.0 - fresnel) * ggx_g1(-refracted.z, alpha);
+            }
+            sum += cap.weight[i] * 3.0 * height * height * angle_weight * value;
+        }
+    }
+    return sum;
+}
+
 /// 2 ∫ f μ dμ of one interpolated row, exactly: with x = √μ, 4 ∫ f(x) x³ dx and f linear in each cell.
-glm::dvec2 row_average(std::span<const float> row) {
-    static const GaussLegendre<3> rule;
+glm::dvec2 reflection_average(std::span<const float> row) {
+    const GaussLegendre<3> rule;
     const double step = 1.0 / (ggx_albedo_columns - 1);
     glm::dvec2 sum(0);
     for (std::size_t i = 0; i + 1 < ggx_albedo_columns; ++i) {
@@ -70,27 +118,86 @@ glm::dvec2 row_average(std::span<const float> row) {
     }
     return sum;
 }
+double glass_mu(double x, double alpha) { return x * alpha / (1.0 + alpha - x); }
+/// The same for a row of glass: ∫ f d(μ²), cell by cell in the row's own coordinate.
+float glass_average(std::span<const float> row, double alpha) {
+    const GaussLegendre<6> rule;
+    const double step = 1.0 / (glass_columns - 1);
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < glass_columns; ++i) {
+        for (std::size_t k = 0; k < 6; ++k) {
+            const double x = (i + rule.x[k]) * step, mu = glass_mu(x, alpha);
+            const double slope = alpha * (1.0 + alpha) / ((1.0 + alpha - x) * (1.0 + alpha - x));
+            sum += rule.weight[k] * step * 2.0 * mu * slope * glm::mix<double>(row[i], row[i + 1], rule.x[k]);
+        }
+    }
+    return static_cast<float>(sum);
+}
 
-std::vector<float> compute_tables() {
-    const GaussLegendre<cap_points> rule;
-    std::vector<float> table(shading_table_size);
+float alpha_of_row(std::size_t row, std::size_t rows) {
     const double smallest = std::sqrt(static_cast<double>(ggx_smallest_alpha));
+    const double root = smallest + (1.0 - smallest) * row / (rows - 1);
+    return static_cast<float>(root * root);
+}
+/// Stands for the limit at grazing incidence.
+constexpr double smallest_mu = 1e-6;
+
+void fill_reflection(std::span<float> table, const Rules& rules) {
     for (std::size_t j = 0; j < ggx_albedo_rows; ++j) {
-        const double root = smallest + (1.0 - smallest) * j / (ggx_albedo_rows - 1);
-        float* row = &table[2 * j * ggx_albedo_columns];
+        const std::span row = table.subspan(2 * j * ggx_albedo_columns, 2 * ggx_albedo_columns);
         for (std::size_t i = 0; i < ggx_albedo_columns; ++i) {
             const double x = static_cast<double>(i) / (ggx_albedo_columns - 1);
-            // At μ = 0 every visible facet reflects upward unshadowed, at o·h → the cap's mean; a
-            // tiny cosine stands for the limit.
-            const float mu = static_cast<float>(std::max(x * x, 1e-6));
-            const glm::dvec2 ab = directional_albedo(mu, static_cast<float>(root * root), rule);
-            row[2 * i] = static_cast<float>(ab.x);
-            row[2 * i + 1] = static_cast<float>(ab.y);
+            const float mu = static_cast<float>(std::max(x * x, smallest_mu));
+            const glm::dvec2 ab = reflection_albedo(mu, alpha_of_row(j, ggx_albedo_rows), rules);
+            const double excess = std::max(1.0, ab.x + ab.y);  // rounding must not give more than all
+            row[2 * i] = static_cast<float>(ab.x / excess);
+            row[2 * i + 1] = static_cast<float>(ab.y / excess);
         }
-        const glm::dvec2 average = row_average({row, 2 * ggx_albedo_columns});
+        const glm::dvec2 average = reflection_average(row);
         table[ggx_albedo_averages + 2 * j] = static_cast<float>(average.x);
         table[ggx_albedo_averages + 2 * j + 1] = static_cast<float>(average.y);
     }
+}
+
+double fresnel_average(float eta) {
+    // The critical cosine splits the integral: reflection is total below it.
+    const GaussLegendre<32> rule;
+    const double critical = eta < 1.0f ? std::sqrt(1.0 - static_cast<double>(eta) * eta) : 0.0;
+    double sum = critical * critical;
+    for (std::size_t i = 0; i < 32; ++i) {
+        // The square in the map removes the root at the critical cosine.
+        const double t = rule.x[i], mu = critical + (1.0 - critical) * t * t;
+        sum += rule.weight[i] * 2.0 * t * (1.0 - critical) * 2.0 * mu * fresnel_dielectric(static_cast<float>(mu), eta);
+    }
+    return sum;
+}
+
+void fill_glass(std::span<float> table, const Rules& rules) {
+    for (std::size_t k = 0; k < 2 * glass_indices; ++k) {
+        const double root = glass_largest_f0_root * static_cast<double>(k % glass_indices) / (glass_indices - 1);
+        const double dense = (1.0 + root) / (1.0 - root);
+        const float eta = static_cast<float>(k < glass_indices ? dense : 1.0 / dense);
+        for (std::size_t j = 0; j < glass_rows; ++j) {
+            const std::span row = table.subspan(glass_albedo_start + (k * glass_rows + j) * glass_columns, glass_columns);
+            const float alpha = alpha_of_row(j, glass_rows);
+            for (std::size_t i = 0; i < glass_columns; ++i) {
+                const double mu = std::max(glass_mu(static_cast<double>(i) / (glass_columns - 1), alpha), smallest_mu);
+                const float cosine = std::min(static_cast<float>(mu), 1.0f);
+                row[i] = static_cast<float>(
+                    std::min(1.0, alpha < 0.2f ? single_glass_albedo(cosine, alpha, eta, rules, rules.cap)
+                                               : single_glass_albedo(cosine, alpha, eta, rules, rules.fine_cap)));
+            }
+            table[glass_average_start + k * glass_rows + j] = glass_average(row, alpha);
+        }
+        table[glass_fresnel_start + k] = static_cast<float>(fresnel_average(eta));
+    }
+}
+
+std::vector<float> compute_tables() {
+    std::vector<float> table(shading_table_size);
+    const Rules rules;
+    fill_reflection(table, rules);
+    fill_glass(table, rules);
     return table;
 }
 

@@ -6,7 +6,7 @@
 namespace heliodon::shading {
 
 /// Every table of the shading room in one array, computed once by deterministic quadrature (about a
-/// tenth of a second at the first call; safe from any thread). The real-time engine uploads it as it is;
+/// fifth of a second at the first call; safe from any thread). The real-time engine uploads it as it is;
 /// ggx_albedo.h says what stands where.
 [[nodiscard]] std::span<const float> shading_tables();
 
