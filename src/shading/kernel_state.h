@@ -73,14 +73,30 @@ struct KernelEmitter {
     float orientation;  // −1 where the instance mirrors: the front is orientation · edge0 × edge1
 };
 
-/// A direction to a light and what it brings, for next-event estimation.
+/// A direction to a selected emitter and what it brings, for next-event estimation.
 struct KernelLightSample {
     vec3 direction;  // from the receiver, unit length
     float pdf;       // per steradian, of this direction by light sampling; 0 for lights without extent
-    vec3 light;      // radiance/pdf, or illuminance on a plane that faces a light without extent / probability
-    float distance;  // to `target`; infinite lights: kernel_infinity
-    vec3 target;     // where the shadow ray ends, just in front of the light; finite lights only
+    vec3 light;      // adds f · |cos θ| · light · visibility
+    float distance;  // m, to `target` along `direction`; kernel_infinity for the sky and directional lights
+    vec3 target;     // where the shadow ray ends, just in front of the emitter; only for finite distances
     float padding;
+};
+
+/// Where a ray met a surface, in the world, before its material is looked at.
+struct KernelPoint {
+    vec3 position;
+    uint instance;
+    vec3 error;  // bound on the rounding error of each coordinate, m
+    uint material;
+    vec3 geometric_normal;  // unit, on the front side
+    uint primitive;
+    vec3 normal;  // unit, interpolated, on the front side
+    uint attributes;
+    vec4 tangent;  // w = ±1: bitangent = w · cross(normal, tangent)
+    vec4 color;
+    vec2 texcoord0;
+    vec2 texcoord1;
 };
 
 SHADING_CONST float kernel_infinity = 1.0e30f;
@@ -112,6 +128,9 @@ SHADING_CONST uint kernel_stage_done = 0u;
 SHADING_CONST uint kernel_stage_scatter = 1u;  // a scatter ray is next
 SHADING_CONST uint kernel_stage_shadow = 2u;   // a shadow ray is next, then what `after_shadow` says
 
+// A ray that crosses more translucent surfaces than this is caught between coinciding ones.
+SHADING_CONST uint kernel_most_passes = 4096u;
+
 struct PathState {
     vec3 origin;  // of the next scatter ray
     uint stage;
@@ -130,7 +149,7 @@ struct PathState {
     vec3 radiance;  // all light gathered
     uint sample_reversed;
     vec3 direct;  // the part of it scattered at most once
-    uint padding;
+    float eta_scale;  // the part of the throughput that is radiance's 1/eta² across boundaries
 };
 
 SHADING_END

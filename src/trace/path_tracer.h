@@ -16,7 +16,7 @@ namespace heliodon {
 
 struct PathOptions {
     int width = 1024, height = 768;
-    int samples_per_pixel = 64;
+    int samples_per_pixel = 64;     ///< measure: samples a sensor
     std::optional<double> seconds;  ///< stop after this long instead of after samples_per_pixel
     int max_depth = 0;              ///< scattering events; 0 = unlimited, 1 = direct light only
     bool environment = true;        ///< false: the sky gives no light and is black
@@ -29,6 +29,7 @@ struct PathStatistics {
     double seconds = 0;
     int samples_per_pixel = 0;
     std::uint64_t rays = 0;
+    std::uint64_t non_finite_samples = 0;  ///< paths whose radiance was no number; they count as black
 };
 
 /// What one update of the tracing database did (tests read it).

@@ -1,0 +1,317 @@
+// The light-transport kernel: one path as a state machine that hands rays out and takes hits in, and never
+// traces anything itself. Unidirectional path tracing with next-event estimation and multiple importance
+// sampling (Veach 1997, chapters 8 to 10).
+//
+//     PathState path = path_begin(x, y, sample);
+//     for (KernelRay ray = path_next_ray(path); ray.kind != kernel_ray_none; ray = path_next_ray(path))
+//         path_take_hit(path, <answer to ray>);
+//     // path.radiance, path.direct
+//
+// Opens no namespace: GLSL includes it at global scope after the definitions below; C++ inside the struct
+// that has them as members (in a namespace that sees heliodon::shading). Include before it, outside:
+// shading/{bsdf, light, material_eval, sky, kernel_sampler, kernel_state}.h. The includer defines
+//
+//   what material_fetch.h wants:    scene_texture, scene_texture_size
+//   KernelFrame kernel_frame()
+//   InstanceData fetch_instance(uint), MaterialData fetch_material(uint), LightData fetch_light(uint), SkyData fetch_sky()
+//   KernelGeometry fetch_geometry(uint geometry)
+//   uvec3 fetch_triangle(uint geometry, uint primitive)            vertex indices
+//   vec3 fetch_position, vec3 fetch_normal, vec4 fetch_tangent, vec4 fetch_color (uint geometry, uint vertex)
+//   vec2 fetch_texcoord(uint geometry, uint set, uint vertex)
+//   KernelEmitter fetch_emitter(uint)
+//   uint fetch_first_emitter(uint instance), fetch_light_emitter(uint light), fetch_visible_light(uint i)
+//   float fetch_sky_cumulative(uint i)                             rows, then a run of columns each row
+#ifndef HELIODON_SHADING_PATH_KERNEL_H
+#define HELIODON_SHADING_PATH_KERNEL_H
+#include "shading/material_fetch.h"
+#include "shading/kernel_surface.h"
+#include "shading/kernel_emitters.h"
+
+// -- random numbers: dimension pair 0 is the pixel; each scattering event takes four more
+
+SHADING_FN vec2 kernel_random_pair(uint pixel_seed, uint sample_reversed, uint event, uint pair) {
+    return kernel_sample_pair(sample_reversed, pixel_seed + (4u * event + pair) * 0x9e3779b9u);
+}
+/// For decisions that come any number of times between two events.
+SHADING_FN float kernel_random_pass(uint pixel_seed, uint sample_reversed, uint pass) {
+    return kernel_unit_float(kernel_hash_combine(kernel_hash_combine(pixel_seed, sample_reversed), pass));
+}
+
+// -- beginning
+
+SHADING_FN PathState path_begin_along(uint stream, uint sample_index, vec3 origin, vec3 direction) {
+    PathState path;
+    path.pixel_seed = kernel_hash_combine(kernel_hash(kernel_frame().seed), stream);
+    path.sample_reversed = kernel_reverse_bits(sample_index);
+    path.origin = origin;
+    path.direction = direction;
+    path.stage = kernel_stage_scatter;
+    path.after_shadow = kernel_stage_done;
+    path.throughput = vec3(1.0f);
+    path.scatter_pdf = 0.0f;
+    path.scatter_origin = origin;
+    path.depth = 0u;
+    path.shadow_origin = vec3(0.0f);
+    path.shadow_t_max = 0.0f;
+    path.shadow_direction = vec3(0.0f);
+    path.pass_count = 0u;
+    path.shadow_light = vec3(0.0f);
+    path.radiance = vec3(0.0f);
+    path.direct = vec3(0.0f);
+    path.eta_scale = 1.0f;
+    return path;
+}
+
+/// A path from the camera through pixel (x, y), counted from the top left; box filter.
+SHADING_FN PathState path_begin(uint x, uint y, uint sample_index) {
+    PathState path = path_begin_along(y * kernel_frame().width + x, sample_index, kernel_frame().camera_position, vec3(0.0f));
+    const vec2 jitter = kernel_random_pair(path.pixel_seed, path.sample_reversed, 0u, 0u);
+    const float across = 2.0f * (float(x) + jitter.x) / float(kernel_frame().width) - 1.0f;
+    const float down = 2.0f * (float(y) + jitter.y) / float(kernel_frame().height) - 1.0f;
+    path.direction = normalize(kernel_frame().camera_forward + kernel_frame().camera_right * across - kernel_frame().camera_up * down);
+    return path;
+}
+
+SHADING_FN KernelRay path_next_ray(PathState path) {
+    KernelRay ray;
+    ray.kind = kernel_ray_none;
+    ray.origin = path.origin;
+    ray.direction = path.direction;
+    ray.t_max = kernel_infinity;
+    if (path.stage == kernel_stage_scatter) {
+        ray.kind = kernel_ray_scatter;
+    } else if (path.stage == kernel_stage_shadow) {
+        ray.kind = kernel_ray_shadow;
+        ray.origin = path.shadow_origin;
+        ray.direction = path.shadow_direction;
+        ray.t_max = path.shadow_t_max;
+    }
+    return ray;
+}
+
+// -- gathering light
+
+SHADING_FN void kernel_add(SHADING_INOUT(PathState) path, vec3 light) {
+    path.radiance += light;
+    if (path.depth <= 1u) {
+        path.direct += light;
+    }
+}
+
+/// Light met by chance, which light sampling would have found with density `light_pdf`.
+SHADING_FN void kernel_add_met(SHADING_INOUT(PathState) path, vec3 radiance, float light_pdf) {
+    const float weight = path.scatter_pdf > 0.0f ? power_heuristic(path.scatter_pdf, light_pdf) : 1.0f;
+    kernel_add(path, path.throughput * radiance * weight);
+}
+
+/// Lights with an extent shine through the segment: they are no surfaces and hide nothing.
+SHADING_FN void kernel_add_visible_lights(SHADING_INOUT(PathState) path, float distance) {
+    for (uint i = 0u; i < kernel_frame().visible_light_count; ++i) {
+        const uint index = fetch_visible_light(i);
+        const LightData light = fetch_light(index);
+        const float t = light_intersect(light, path.origin, path.direction);
+        if (t >= 0.0f && t < distance) {
+            const float pdf = light_pdf(light, path.scatter_origin) * fetch_emitter(fetch_light_emitter(index)).probability;
+            kernel_add_met(path, light_radiance(light, path.direction), pdf);
+        }
+    }
+}
+
+// -- scattering
+
+SHADING_FN BsdfLobes kernel_prepare(Surface surface, vec3 wo) {
+    if (surface.model == material_model_lambert) {  // none of the tables' work is needed
+        BsdfLobes lobes;
+        lobes.glass = 0.0f;
+        lobes.coat_albedo = 0.0f;
+        lobes.probability_specular = 0.0f;
+        lobes.probability_diffuse = 1.0f;
+        lobes.probability_glass = 0.0f;
+        lobes.probability_coat = 0.0f;
+        return lobes;
+    }
+    return bsdf_prepare(surface, wo);
+}
+
+SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, Frame frame,
+                                     Surface surface, BsdfLobes lobes, vec3 wo, float u_select, vec2 u) {
+    const KernelLightSample light = kernel_sample_emitters(position, u_select, u);
+    if (max_component(light.light) <= 0.0f) {
+        return;
+    }
+    const vec3 wi = to_local(frame, light.direction);
+    const float side = same_side(light.direction, geometric, wi.z);
+    if (side <= 0.0f) {
+        return;
+    }
+    const vec3 value = bsdf_evaluate_prepared(surface, lobes, wo, wi);
+    if (max_component(value) <= 0.0f) {
+        return;
+    }
+    float weight = 1.0f;
+    if (light.pdf > 0.0f) {
+        weight = power_heuristic(light.pdf, bsdf_pdf_prepared(surface, lobes, wo, wi));
+    }
+    path.shadow_light = path.throughput * value * light.light * weight;
+    path.shadow_origin = kernel_offset(position, error, geometric, light.direction);
+    path.shadow_direction = light.direction;
+    path.shadow_t_max = kernel_infinity;
+    if (light.distance < kernel_infinity) {
+        const vec3 segment = light.target - path.shadow_origin;
+        const float length_m = length(segment);
+        path.shadow_direction = segment / max(length_m, 1.0e-37f);
+        path.shadow_t_max = length_m * (1.0f - 1.0e-6f);  // the rounding of origin + t · direction
+    }
+    path.stage = kernel_stage_shadow;
+}
+
+/// One scattering event: a light sample, whose shadow ray comes first, and a scattered ray. `geometric` is
+/// the side of the surface that `wo_world` is on.
+SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, vec3 normal,
+                               Surface surface, vec3 wo_world) {
+    const uint event = path.depth;
+    path.depth += 1u;
+    const bool last = kernel_frame().max_depth != 0u && path.depth >= kernel_frame().max_depth;
+    const Frame frame = frame_from_normal(normal);
+    const vec3 wo = to_local(frame, wo_world);
+    path.stage = kernel_stage_done;
+    path.after_shadow = kernel_stage_done;
+    if (wo.z <= 0.0f) {
+        return;
+    }
+    const BsdfLobes lobes = kernel_prepare(surface, wo);
+    const vec2 choices = kernel_random_pair(path.pixel_seed, path.sample_reversed, event, 1u);
+    if (kernel_frame().emitter_count > 0u) {
+        kernel_sample_direct(path, position, error, geometric, frame, surface, lobes, wo, choices.x,
+                             kernel_random_pair(path.pixel_seed, path.sample_reversed, event, 2u));
+    }
+    if (last && kernel_frame().scattered_emission == 0u) {
+        return;
+    }
+    const vec2 u = kernel_random_pair(path.pixel_seed, path.sample_reversed, event, 3u);
+    const BsdfSample scattered = bsdf_sample_prepared(surface, lobes, wo, vec3(u, choices.y));
+    if (scattered.pdf <= 0.0f || max_component(scattered.weight) <= 0.0f) {
+        return;
+    }
+    const vec3 direction = to_world(frame, scattered.direction);
+    if (same_side(direction, geometric, scattered.direction.z) <= 0.0f) {
+        return;
+    }
+    vec3 throughput = path.throughput * scattered.weight;
+    const float eta_scale = path.eta_scale * scattered.eta_scale;
+    // Russian roulette (Arvo & Kirk 1990) once the first few events are past, blind to the radiance scaling of
+    // refraction, which later leaving the medium undoes.
+    if (path.depth >= 4u) {
+        const float survival = min(max_component(throughput) / eta_scale, 0.98f);
+        if (kernel_random_pair(path.pixel_seed, path.sample_reversed, event + 1u, 0u).x >= survival) {
+            return;
+        }
+        throughput = throughput / survival;
+    }
+    // The shadow ray still carries the light of the event itself in shadow_light.
+    path.throughput = throughput;
+    path.eta_scale = eta_scale;
+    path.scatter_pdf = scattered.pdf;
+    path.scatter_origin = position;
+    path.origin = kernel_offset(position, error, geometric, direction);
+    path.direction = direction;
+    path.after_shadow = kernel_stage_scatter;
+    if (path.stage == kernel_stage_done) {
+        path.stage = kernel_stage_scatter;
+    }
+}
+
+/// A path that measures illuminance in lux at `position` on a plane facing `normal`: the first event is
+/// scattering at a white Lambertian surface there, whose radiance is E/π.
+SHADING_FN PathState path_begin_illuminance(uint stream, uint sample_index, vec3 position, vec3 normal) {
+    PathState path = path_begin_along(stream, sample_index, position, -normal);
+    Surface surface = surface_default();
+    surface.model = material_model_lambert;
+    surface.base_color = vec3(1.0f);
+    path.throughput = vec3(pi);
+    kernel_scatter(path, position, vec3(0.0f), normal, normal, surface, normal);
+    return path;
+}
+
+// -- taking hits
+
+SHADING_FN void kernel_take_shadow_hit(SHADING_INOUT(PathState) path, KernelHit hit) {
+    if (hit.kind == kernel_hit_surface) {
+        const KernelPoint point = kernel_point(hit);
+        const float opacity = material_opacity_at(fetch_material(point.material), point.texcoord0, point.texcoord1, point.color.w);
+        path.shadow_light = path.shadow_light * (1.0f - opacity);
+        path.pass_count += 1u;
+        if (opacity < 1.0f && path.pass_count < kernel_most_passes) {
+            const vec3 onward = kernel_offset(point.position, point.error, point.geometric_normal, path.shadow_direction);
+            if (path.shadow_t_max < kernel_infinity) {
+                path.shadow_t_max -= dot(onward - path.shadow_origin, path.shadow_direction);
+            }
+            path.shadow_origin = onward;
+            if (path.shadow_t_max > 0.0f) {
+                return;  // the same stage again
+            }
+        }
+    }
+    if (hit.kind == kernel_hit_nothing || (hit.kind == kernel_hit_surface && path.shadow_t_max <= 0.0f)) {
+        kernel_add(path, path.shadow_light);
+    }
+    path.stage = path.after_shadow;
+}
+
+/// True where the ray goes on behind the surface as if it were not there, with probability 1 − opacity.
+SHADING_FN bool kernel_pass_through(SHADING_INOUT(PathState) path, KernelPoint point, MaterialData material) {
+    const float opacity = material_opacity_at(material, point.texcoord0, point.texcoord1, point.color.w);
+    if (opacity >= 1.0f) {
+        return false;
+    }
+    path.pass_count += 1u;
+    if (kernel_random_pass(path.pixel_seed, path.sample_reversed, path.pass_count) < opacity) {
+        return false;
+    }
+    path.origin = kernel_offset(point.position, point.error, point.geometric_normal, path.direction);
+    path.stage = path.pass_count < kernel_most_passes ? kernel_stage_scatter : kernel_stage_done;
+    return true;
+}
+
+SHADING_FN void kernel_take_surface_hit(SHADING_INOUT(PathState) path, KernelHit hit) {
+    const KernelPoint point = kernel_point(hit);
+    const MaterialData material = fetch_material(point.material);
+    if (kernel_pass_through(path, point, material)) {
+        return;
+    }
+    path.stage = kernel_stage_done;
+    const bool front = dot(path.direction, point.geometric_normal) < 0.0f;
+    const bool two_sided = (material.flags & material_flag_two_sided) != 0u;
+    const bool inside = !front && !two_sided;
+    const MaterialPoint at = material_at(material, point.texcoord0, point.texcoord1, point.color, inside);
+    if (!inside && max_component(at.emission) > 0.0f) {
+        kernel_add_met(path, at.emission, path.scatter_pdf > 0.0f ? kernel_hit_pdf(point, path.scatter_origin) : 0.0f);
+    }
+    // The back of a one-sided surface is black; that of a transmissive solid is its inside.
+    const bool black = inside && !at.surface.inside;
+    if (black || material.model == material_model_unlit ||
+        (kernel_frame().max_depth != 0u && path.depth >= kernel_frame().max_depth)) {
+        return;
+    }
+    const vec3 wo = -path.direction;
+    const vec3 geometric = front ? point.geometric_normal : -point.geometric_normal;
+    const vec3 normal = usable_shading_normal(kernel_mapped_normal(hit, point, material), geometric, wo);
+    kernel_scatter(path, point.position, point.error, geometric, normal, at.surface, wo);
+}
+
+SHADING_FN void path_take_hit(SHADING_INOUT(PathState) path, KernelHit hit) {
+    if (path.stage == kernel_stage_shadow) {
+        kernel_take_shadow_hit(path, hit);
+        return;
+    }
+    if (hit.kind == kernel_hit_surface) {
+        kernel_add_visible_lights(path, hit.t);
+        kernel_take_surface_hit(path, hit);
+        return;
+    }
+    kernel_add_visible_lights(path, 2.0f * kernel_infinity);
+    kernel_add_met(path, kernel_sky_radiance(path.direction), path.scatter_pdf > 0.0f ? kernel_sky_pdf(path.direction) : 0.0f);
+    path.stage = kernel_stage_done;
+}
+
+#endif

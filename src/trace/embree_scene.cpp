@@ -1,0 +1,283 @@
+#include "trace/embree_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+
+namespace heliodon::trace {
+namespace {
+
+constexpr unsigned opaque_mask = 1;       // instances that block every ray
+constexpr unsigned translucent_mask = 2;  // instances whose material may let a shadow ray through
+
+struct Crossing {
+    double t;
+    glm::dvec3 normal;  // object space, outward
+    double u, v;
+};
+
+/// Calls `accept(Crossing)` for each crossing of the line with the shape, nearest first, until it returns true.
+template <class Accept>
+void cross_sphere(const Sphere& sphere, const glm::dvec3& origin, const glm::dvec3& direction, Accept&& accept) {
+    // Double precision: the float discriminant of a small sphere far away has no correct digit.
+    const glm::dvec3 offset = origin - glm::dvec3(sphere.center);
+    const double radius = sphere.radius;
+    const double a = glm::dot(direction, direction);
+    const double b = -glm::dot(offset, direction);
+    const glm::dvec3 closest = offset + (b / a) * direction;
+    const double discriminant = radius * radius - glm::dot(closest, closest);
+    if (!(discriminant >= 0)) return;
+    const double c = glm::dot(offset, offset) - radius * radius;
+    const double q = b + std::copysign(std::sqrt(a * discriminant), b);
+    double near = c / q, far = q / a;
+    if (q == 0) near = far = 0;
+    if (near > far) std::swap(near, far);
+    for (const double t : {near, far})
+        if (accept(Crossing{t, (offset + t * direction) / radius, 0, 0})) return;
+}
+
+template <class Accept>
+void cross_disk(const Disk& disk, const glm::dvec3& origin, const glm::dvec3& direction, Accept&& accept) {
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(disk.normal));
+    const double t = glm::dot(glm::dvec3(disk.center) - origin, normal) / glm::dot(direction, normal);
+    if (!std::isfinite(t)) return;
+    const glm::dvec3 tangent = disk_tangent(glm::vec3(normal)), bitangent = glm::cross(normal, tangent);
+    const glm::dvec3 point = (origin + t * direction - glm::dvec3(disk.center)) / static_cast<double>(disk.radius);
+    const double u = glm::dot(point, tangent), v = glm::dot(point, bitangent);
+    if (u * u + v * v <= 1) accept(Crossing{t, normal, u, v});
+}
+
+template <class Accept>
+void cross_shape(const Shape& shape, const glm::dvec3& origin, const glm::dvec3& direction, Accept&& accept) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) cross_sphere(*sphere, origin, direction, accept);
+    if (const auto* disk = std::get_if<Disk>(&shape)) cross_disk(*disk, origin, direction, accept);
+}
+
+void shape_bounds(const RTCBoundsFunctionArguments* arguments) {
+    const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
+    const Bounds exact = bounds(shape);
+    // A little outward, since the crossing itself is computed in double precision.
+    const glm::vec3 margin = 1e-6f * (glm::abs(exact.center()) + glm::vec3(exact.diagonal()));
+    const glm::vec3 lower = exact.min - margin, upper = exact.max + margin;
+    *arguments->bounds_o = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, 0};
+}
+
+glm::dvec3 origin_of(const RTCRay& ray) { return {ray.org_x, ray.org_y, ray.org_z}; }
+glm::dvec3 direction_of(const RTCRay& ray) { return {ray.dir_x, ray.dir_y, ray.dir_z}; }
+
+void shape_intersect(const RTCIntersectFunctionNArguments* arguments) {
+    if (!arguments->valid[0]) return;
+    // Only single rays are traced, so that the packet is one RTCRayHit.
+    auto& query = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+    const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
+    cross_shape(shape, origin_of(query.ray), direction_of(query.ray), [&](const Crossing& crossing) {
+        const auto t = static_cast<float>(crossing.t);
+        if (!(t > query.ray.tnear && t <= query.ray.tfar)) return false;
+        query.ray.tfar = t;
+        query.hit.u = static_cast<float>(crossing.u);
+        query.hit.v = static_cast<float>(crossing.v);
+        query.hit.Ng_x = static_cast<float>(crossing.normal.x);
+        query.hit.Ng_y = static_cast<float>(crossing.normal.y);
+        query.hit.Ng_z = static_cast<float>(crossing.normal.z);
+        query.hit.primID = arguments->primID;
+        query.hit.geomID = 0;
+        query.hit.instID[0] = arguments->context->instID[0];
+        return true;
+    });
+}
+
+void shape_occluded(const RTCOccludedFunctionNArguments* arguments) {
+    if (!arguments->valid[0]) return;
+    auto& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
+    const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
+    cross_shape(shape, origin_of(ray), direction_of(ray), [&](const Crossing& crossing) {
+        const auto t = static_cast<float>(crossing.t);
+        if (!(t > ray.tnear && t <= ray.tfar)) return false;
+        ray.tfar = -std::numeric_limits<float>::infinity();
+        return true;
+    });
+}
+
+RTCRay embree_ray(const shading::KernelRay& ray, unsigned mask) {
+    RTCRay result{};
+    result.org_x = ray.origin.x;
+    result.org_y = ray.origin.y;
+    result.org_z = ray.origin.z;
+    result.dir_x = ray.direction.x;
+    result.dir_y = ray.direction.y;
+    result.dir_z = ray.direction.z;
+    result.tnear = 0;
+    result.tfar = ray.t_max;
+    result.mask = mask;
+    return result;
+}
+
+bool is_drawn(const convert::FlatScene& flat, std::uint32_t index) {
+    const shading::InstanceData& instance = flat.instances()[index];
+    return (instance.flags & shading::instance_flag_visible) && flat.geometries()[instance.geometry];
+}
+
+unsigned mask_of(const convert::FlatScene& flat, std::uint32_t index) {
+    constexpr std::uint32_t alpha = shading::material_flag_alpha_mask | shading::material_flag_alpha_blend;
+    return flat.materials()[flat.instances()[index].material].flags & alpha ? translucent_mask : opaque_mask;
+}
+
+}  // namespace
+
+Result<void> EmbreeScene::open_device() {
+    if (device_) return {};
+    device_.reset(rtcNewDevice(nullptr));
+    if (!device_) return fail("", fmt::format("cannot start Embree (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));
+    return {};
+}
+
+Result<void> EmbreeScene::build_geometry(const Geometry* geometry, Level& level) {
+    level = {};
+    if (!geometry || geometry->mesh.indices.empty()) return {};
+    const Mesh& mesh = geometry->mesh;
+    GeometryReference triangles;
+    const bool exact = geometry->shape && (std::holds_alternative<Sphere>(*geometry->shape) ||
+                                           std::holds_alternative<Disk>(*geometry->shape));
+    if (exact) {
+        level.shape = std::make_unique<Shape>(*geometry->shape);
+        triangles.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
+        rtcSetGeometryUserPrimitiveCount(triangles.get(), 1);
+        rtcSetGeometryUserData(triangles.get(), level.shape.get());
+        rtcSetGeometryBoundsFunction(triangles.get(), shape_bounds, nullptr);
+        rtcSetGeometryIntersectFunction(triangles.get(), shape_intersect);
+        rtcSetGeometryOccludedFunction(triangles.get(), shape_occluded);
+    } else {
+        const std::uint32_t highest = *std::max_element(mesh.indices.begin(), mesh.indices.end());
+        if (highest >= mesh.positions.size())
+            return fail(geometry->name, fmt::format("expected vertex indices below {}, found {}", mesh.positions.size(), highest));
+        triangles.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+        // Shared, never copied: Mesh's arrays are padded for Embree's 16-byte reads.
+        rtcSetSharedGeometryBuffer(triangles.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
+                                   sizeof(glm::vec3), mesh.positions.size());
+        rtcSetSharedGeometryBuffer(triangles.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
+                                   3 * sizeof(std::uint32_t), mesh.triangle_count());
+    }
+    embree_answer_every_mask(triangles.get());
+    rtcCommitGeometry(triangles.get());
+    level.scene.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(level.scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcAttachGeometryByID(level.scene.get(), triangles.get(), 0);
+    rtcCommitScene(level.scene.get());
+    const RTCError error = rtcGetDeviceError(device_.get());
+    if (error != RTC_ERROR_NONE) return fail(geometry->name, fmt::format("Embree cannot build it (error {})", static_cast<int>(error)));
+    return {};
+}
+
+bool EmbreeScene::place_instance(const convert::FlatScene& flat, std::uint32_t index, bool level_rebuilt) {
+    Instance& instance = instances_[index];
+    const bool drawn = is_drawn(flat, index) && levels_[flat.instances()[index].geometry].scene;
+    if (!drawn) {
+        if (!instance.attached) return false;
+        rtcDetachGeometry(top_.get(), index);
+        instance = {};
+        return true;
+    }
+    const shading::InstanceData& data = flat.instances()[index];
+    if (!instance.geometry) instance.geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+    if (level_rebuilt || !instance.attached || instance.level != data.geometry)
+        rtcSetGeometryInstancedScene(instance.geometry.get(), levels_[data.geometry].scene.get());
+    instance.level = data.geometry;
+    rtcSetGeometryTransform(instance.geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(data.object_to_world));
+    instance.mask = mask_of(flat, index);
+    rtcSetGeometryMask(instance.geometry.get(), instance.mask);
+    rtcCommitGeometry(instance.geometry.get());
+    if (!instance.attached) rtcAttachGeometryByID(top_.get(), instance.geometry.get(), index);
+    instance.attached = true;
+    return true;
+}
+
+Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const convert::FlatChanges& changes) {
+    if (auto opened = open_device(); !opened) return tl::unexpected(opened.error());
+    TraceUpdate result;
+    const bool everything = changes.everything || !top_;
+    if (everything) {
+        instances_.clear();
+        top_.reset(rtcNewScene(device_.get()));
+        rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST);
+        levels_.clear();
+    }
+    levels_.resize(flat.geometries().size());
+    instances_.resize(flat.instances().size());
+
+    std::vector<bool> rebuilt(levels_.size(), everything);
+    const auto build = [&](std::uint32_t index) -> Result<void> {
+        rebuilt[index] = true;
+        if (auto built = build_geometry(flat.geometries()[index], levels_[index]); !built) return built;
+        result.geometries_built += levels_[index].scene ? 1 : 0;
+        return {};
+    };
+    std::vector<std::uint32_t> wanted = changes.geometries;
+    if (everything) {
+        wanted.resize(levels_.size());
+        for (std::uint32_t i = 0; i < wanted.size(); ++i) wanted[i] = i;
+    }
+    for (const std::uint32_t index : wanted)
+        if (auto built = build(index); !built) {
+            top_.reset();  // half an update is none: the next one starts afresh
+            return tl::unexpected(built.error());
+        }
+
+    std::vector<bool> stale(instances_.size(), everything);
+    for (const std::uint32_t index : changes.instances) stale[index] = true;
+    std::vector<bool> material_changed(flat.materials().size(), false);
+    for (const std::uint32_t index : changes.materials) material_changed[index] = true;
+    bool top_changed = everything;
+    for (std::uint32_t index = 0; index < instances_.size(); ++index) {
+        const shading::InstanceData& data = flat.instances()[index];
+        const bool level_rebuilt = data.geometry < rebuilt.size() && rebuilt[data.geometry];
+        const bool mask_changed = instances_[index].attached && data.material < material_changed.size() &&
+                                  material_changed[data.material] && instances_[index].mask != mask_of(flat, index);
+        if (!stale[index] && !level_rebuilt && !mask_changed) continue;
+        if (!place_instance(flat, index, level_rebuilt)) continue;
+        ++result.instances_updated;
+        top_changed = true;
+    }
+    if (top_changed) {
+        rtcCommitScene(top_.get());
+        result.top_level_built = true;
+        any_translucent_ = std::any_of(instances_.begin(), instances_.end(), [](const Instance& instance) {
+            return instance.attached && instance.mask == translucent_mask;
+        });
+    }
+    const RTCError error = rtcGetDeviceError(device_.get());
+    if (error != RTC_ERROR_NONE) return fail("", fmt::format("Embree cannot build the scene (error {})", static_cast<int>(error)));
+    return result;
+}
+
+shading::KernelHit EmbreeScene::trace(const shading::KernelRay& ray) const {
+    shading::KernelHit hit{};
+    unsigned mask = opaque_mask | translucent_mask;
+    if (ray.kind == shading::kernel_ray_shadow) {
+        RTCRay segment = embree_ray(ray, opaque_mask);
+        embree_occluded(top_.get(), segment);
+        if (segment.tfar < 0) {
+            hit.kind = shading::kernel_hit_blocked;
+            return hit;
+        }
+        if (!any_translucent_) return hit;
+        mask = translucent_mask;
+    }
+    RTCRayHit query{};
+    query.ray = embree_ray(ray, mask);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree_intersect(top_.get(), query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+    hit.kind = shading::kernel_hit_surface;
+    hit.t = query.ray.tfar;
+    hit.instance = query.hit.instID[0];
+    hit.primitive = query.hit.primID;
+    hit.barycentric = {query.hit.u, query.hit.v};
+    hit.object_normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
+    return hit;
+}
+
+}  // namespace heliodon::trace

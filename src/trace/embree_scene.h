@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "convert/flat_scene.h"
+#include "core/result.h"
+#include "shading/kernel_state.h"
+#include "trace/embree_api.h"
+#include "trace/path_tracer.h"
+
+namespace heliodon::trace {
+
+/// Owns one reference to an Embree object.
+template <class Object, void (*release)(Object)>
+struct EmbreeRelease {
+    using pointer = Object;
+    void operator()(Object object) const { release(object); }
+};
+using DeviceReference = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease<RTCDevice, rtcReleaseDevice>>;
+using SceneReference = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease<RTCScene, rtcReleaseScene>>;
+using GeometryReference = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeRelease<RTCGeometry, rtcReleaseGeometry>>;
+
+/// Answers the kernel's rays on the CPU: one Embree scene a geometry, over the scene's own vertex arrays,
+/// and a top level of instances numbered as FlatScene numbers them.
+class EmbreeScene {
+public:
+    /// Follows `changes`. The vertex arrays of `flat` must stay in place until the next update. After an
+    /// error the next update starts afresh.
+    [[nodiscard]] Result<TraceUpdate> update(const convert::FlatScene& flat, const convert::FlatChanges& changes);
+
+    /// The nearest hit of a scatter ray. Of a shadow ray: blocked, or the nearest surface that might let
+    /// light through, or nothing.
+    [[nodiscard]] shading::KernelHit trace(const shading::KernelRay& ray) const;
+
+private:
+    struct Level {
+        SceneReference scene;
+        std::unique_ptr<Shape> shape;  ///< what the user-geometry callbacks read
+    };
+    struct Instance {
+        GeometryReference geometry;
+        std::uint32_t level = 0;
+        unsigned mask = 0;
+        bool attached = false;
+    };
+
+    Result<void> open_device();
+    Result<void> build_geometry(const Geometry* geometry, Level& level);
+    /// False where nothing changed: a hole stays a hole.
+    bool place_instance(const convert::FlatScene& flat, std::uint32_t index, bool level_rebuilt);
+
+    // In this order: the device goes last.
+    DeviceReference device_;
+    std::vector<Level> levels_;
+    std::vector<Instance> instances_;
+    SceneReference top_;
+    bool any_translucent_ = false;
+};
+
+}  // namespace heliodon::trace

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "convert/flat_scene.h"
+#include "shading/kernel_state.h"
+#include "trace/texture_table.h"
+
+namespace heliodon::trace {
+
+/// What next-event estimation selects from, with each emitter's share of the samples: half by luminous
+/// flux, half evenly over lights, emissive instances and the image sky, so that neither a weak lamp beside
+/// the sun nor one triangle of a thousand starves.
+struct EmitterTable {
+    std::vector<shading::KernelEmitter> emitters;
+    std::vector<std::uint32_t> first_emitter;   ///< by instance; kernel_no_emitter where it emits nothing
+    std::vector<std::uint32_t> light_emitter;   ///< by light; kernel_no_emitter for a hole
+    std::vector<std::uint32_t> visible_lights;  ///< lights with an extent: scattered rays can meet them
+    std::uint32_t sky_emitter = shading::kernel_no_emitter;
+    /// The image sky's luminance: cumulative over rows, then a cumulative row each; cells are equal steps of
+    /// azimuth and polar angle.
+    std::vector<float> sky_cumulative;
+    std::uint32_t sky_columns = 0, sky_rows = 0;
+    bool scattered_emission = false;  ///< any light that a scattered ray can meet
+};
+
+[[nodiscard]] EmitterTable build_emitters(const convert::FlatScene& flat, const TextureTable& textures, bool environment);
+
+}  // namespace heliodon::trace

@@ -1,0 +1,62 @@
+#include "trace/measure.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace heliodon::trace {
+namespace {
+
+constexpr int batch_count = 32;
+constexpr double student_95 = 2.0395134;  // two-sided 95 % quantile of Student's t, 31 degrees of freedom
+
+// Luminance weights of Rec. 709 (ITU-R BT.709-6, item 3.2).
+double luminance(const glm::dvec3& rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+
+shading::PathState begin(CpuKernel& kernel, const Sensor& sensor, float offset_m, std::uint32_t stream, std::uint32_t sample) {
+    const vec3 direction = glm::normalize(sensor.direction);
+    // A sensor on a surface looks out from it.
+    const vec3 position = sensor.position + offset_m * direction;
+    return sensor.type == SensorType::illuminance ? kernel.path_begin_illuminance(stream, sample, position, direction)
+                                                  : kernel.path_begin_along(stream, sample, position, direction);
+}
+
+}  // namespace
+
+std::vector<SensorReading> measure_sensors(const Scene& scene, const CpuKernel& shared_kernel, const EmbreeScene& embree,
+                                           const PathOptions& options, const Progress& progress) {
+    constexpr float offset = 1e-4f;  // of the scene's size
+    const Bounds bounds = shared_kernel.flat.bounds();
+    const float offset_m = bounds.empty() ? 0.0f : offset * bounds.diagonal();
+    const int samples = std::max(1, (options.samples_per_pixel + batch_count - 1) / batch_count);
+    std::vector<SensorReading> readings;
+    scene.sensors().each([&](SensorId, const Sensor& sensor) {
+        const auto index = static_cast<std::uint32_t>(readings.size());
+        glm::dvec3 means[batch_count];
+        run_on_threads(options.threads, [&] {
+            tbb::parallel_for(0, batch_count, [&](int batch) {
+                CpuKernel kernel = shared_kernel;
+                PathCounts counts;
+                glm::dvec3 sum(0);
+                // Batches are independent: each scrambles the sequence its own way.
+                const std::uint32_t stream = index * batch_count + static_cast<std::uint32_t>(batch);
+                for (int i = 0; i < samples; ++i) {
+                    shading::PathState path = begin(kernel, sensor, offset_m, stream, static_cast<std::uint32_t>(i));
+                    sum += follow_path(kernel, embree, path, counts).radiance;
+                }
+                means[batch] = sum / static_cast<double>(samples);
+            });
+        });
+        glm::dvec3 mean(0);
+        for (const glm::dvec3& value : means) mean += value / static_cast<double>(batch_count);
+        double squares = 0;
+        for (const glm::dvec3& value : means) squares += std::pow(luminance(value) - luminance(mean), 2);
+        const double half_width = student_95 * std::sqrt(squares / (batch_count - 1) / batch_count);
+        readings.push_back({sensor.name, sensor.type, luminance(mean), mean, half_width});
+        if (progress) progress(static_cast<double>(readings.size()) / static_cast<double>(scene.sensors().size()));
+    });
+    return readings;
+}
+
+}  // namespace heliodon::trace

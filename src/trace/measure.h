@@ -1,0 +1,12 @@
+#pragma once
+
+#include "trace/render_loop.h"
+
+namespace heliodon::trace {
+
+/// Every sensor's reading: the mean of independent batches, and the 95 % half-width of that mean from
+/// Student's distribution.
+[[nodiscard]] std::vector<SensorReading> measure_sensors(const Scene& scene, const CpuKernel& kernel, const EmbreeScene& embree,
+                                                         const PathOptions& options, const Progress& progress);
+
+}  // namespace heliodon::trace
