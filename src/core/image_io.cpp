@@ -48,15 +48,21 @@ tl::unexpected<Error> unknown_ending(const std::filesystem::path& path) {
                                            ending.empty() ? "no ending" : '"' + ending + '"'));
 }
 
+/// A message on one line: what a library quotes from a damaged file may hold anything.
+std::string printable(std::string message) {
+    std::replace_if(message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c >= 0x7f; }, '?');
+    return message;
+}
+
 /// Runs a codec on behalf of `path`: its errors get the file's name, and what it throws becomes an error.
 template <class Codec>
 auto located(const std::filesystem::path& path, Codec&& codec) -> decltype(codec()) {
     try {
-        return codec().map_error([&](Error error) { return Error{path.string(), std::move(error.message)}; });
+        return codec().map_error([&](Error error) { return Error{path.string(), printable(std::move(error.message))}; });
     } catch (const std::bad_alloc&) {
         return fail(path.string(), "not enough memory for the picture");
     } catch (const std::exception& exception) {
-        return fail(path.string(), exception.what());
+        return fail(path.string(), printable(exception.what()));
     }
 }
 

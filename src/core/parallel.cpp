@@ -1,5 +1,6 @@
 #include "core/parallel.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -21,7 +22,8 @@ void parallel_for(std::size_t count, std::size_t grain,
     } else if (threads <= 0) {
         tbb::parallel_for(std::size_t{0}, pieces, run_piece);
     } else {
-        tbb::task_arena arena(threads);
+        // More than there are cores would only make TBB complain on standard error.
+        tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
         arena.execute([&] { tbb::parallel_for(std::size_t{0}, pieces, run_piece); });
     }
 }
