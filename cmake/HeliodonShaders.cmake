@@ -37,14 +37,14 @@ function(heliodon_shaders)
     string(APPEND ENTRIES "        {\"${NAME}\", ${IDENTIFIER}},\n")
   endforeach()
 
-  file(CONFIGURE OUTPUT ${OUTPUT}/${ARG_TARGET}_shaders.h @ONLY CONTENT [[
+  file(CONFIGURE OUTPUT ${OUTPUT}/${ARG_TARGET}_shaders.h @ONLY CONTENT [=[
 #pragma once
 #include <span>
 #include "gpu/shader.h"
 namespace @ARG_NAMESPACE@ {
 [[nodiscard]] std::span<const heliodon::gpu::EmbeddedShader> embedded_shaders();
 }
-]])
+]=])
   list(LENGTH FILES COUNT)
   if(COUNT EQUAL 0)
     set(BODY "    return {};")
