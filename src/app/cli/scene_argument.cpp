@@ -7,8 +7,9 @@
 
 namespace heliodon::cli {
 
-void add_scene_argument(CLI::App& command, SceneArgument& argument) {
-    command.add_option("SCENE", argument.path, "A scene file (*.heliodon.json) or a model (.obj, .gltf, .glb)")->required();
+CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument) {
+    CLI::Option* scene =
+        command.add_option("SCENE", argument.path, "A scene file (*.heliodon.json) or a model (.obj, .gltf, .glb)")->required();
     command
         .add_option("--set", argument.overrides,
                     "PATH=VALUE: override a field of the scene file (render.gi=none, nodes.bulb.light.flux_lm=900)")
@@ -17,6 +18,7 @@ void add_scene_argument(CLI::App& command, SceneArgument& argument) {
             const std::size_t equals = text.find('=');
             return equals == std::string::npos || equals == 0 ? "expected PATH=VALUE, found \"" + text + "\"" : "";
         });
+    return scene;
 }
 
 Result<Scene> load(const SceneArgument& argument, Warnings& warnings) {

@@ -8,6 +8,7 @@
 
 namespace CLI {
 class App;
+class Option;
 }
 
 namespace heliodon::cli {
@@ -18,7 +19,8 @@ struct SceneArgument {
     std::vector<std::string> overrides;
 };
 
-void add_scene_argument(CLI::App& command, SceneArgument& argument);
+/// Declares both and returns SCENE, which is required unless the caller says otherwise.
+CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument);
 [[nodiscard]] Result<Scene> load(const SceneArgument& argument, Warnings& warnings);
 /// The same, with its warnings reported on standard error.
 [[nodiscard]] Result<Scene> load(const SceneArgument& argument);

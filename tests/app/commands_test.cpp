@@ -1,0 +1,202 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/program.h"
+#include "core/image_io.h"
+
+namespace heliodon::tests {
+namespace {
+
+using nlohmann::json;
+
+class Commands : public ProgramTest {
+protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        write("s.heliodon.json", small_scene);
+    }
+    [[nodiscard]] Ended render(std::vector<std::string> extra) const {
+        std::vector<std::string> arguments{"render", "s.heliodon.json", "--size", "48x32", "--spp", "4"};
+        arguments.insert(arguments.end(), extra.begin(), extra.end());
+        return run(arguments);
+    }
+};
+
+std::vector<std::string> keys(const json& object) {
+    std::vector<std::string> names;
+    for (const auto& [key, value] : object.items()) names.push_back(key);
+    return names;  // nlohmann::json holds them sorted
+}
+
+TEST_F(Commands, RenderWritesEveryOutputAndTheExrStoresItsExposure) {
+    const Ended ended = render({"--engine", "path", "-o", "a.exr", "-o", "a.png", "-o", "a.hdr", "-o", "a.pfm", "-o", "a.jpg"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    for (const char* name : {"a.exr", "a.png", "a.hdr", "a.pfm", "a.jpg"}) {
+        const auto picture = read_picture(folder() / name);
+        ASSERT_TRUE(picture) << picture.error().text();
+        EXPECT_EQ(picture->image.width, 48) << name;
+        EXPECT_EQ(picture->image.height, 32) << name;
+    }
+    const auto picture = read_picture(folder() / "a.exr");
+    EXPECT_TRUE(picture->has_ev100);
+    EXPECT_FLOAT_EQ(picture->ev100, 5.0f);
+}
+
+TEST_F(Commands, TheCameraAndTheExposureAreChosenByOption) {
+    ASSERT_EQ(render({"--engine", "path", "--camera", "above", "-o", "a.exr"}).code, 0);
+    EXPECT_FLOAT_EQ(read_picture(folder() / "a.exr")->ev100, 6.0f);
+    ASSERT_EQ(render({"--engine", "path", "--ev100", "-2.5", "-o", "b.exr"}).code, 0);
+    EXPECT_FLOAT_EQ(read_picture(folder() / "b.exr")->ev100, -2.5f);
+}
+
+TEST_F(Commands, TheSameCommandGivesTheSamePictureWhateverTheThreadCount) {
+    ASSERT_EQ(render({"--engine", "path", "--threads", "1", "-o", "a.exr"}).code, 0);
+    ASSERT_EQ(render({"--engine", "path", "--threads", "3", "-o", "b.exr"}).code, 0);
+    ASSERT_EQ(render({"--engine", "path", "--seed", "7", "-o", "c.exr"}).code, 0);
+    EXPECT_EQ(read_picture(folder() / "a.exr")->image.pixels, read_picture(folder() / "b.exr")->image.pixels);
+    EXPECT_NE(read_picture(folder() / "a.exr")->image.pixels, read_picture(folder() / "c.exr")->image.pixels);
+}
+
+TEST_F(Commands, LayersAreWrittenIntoTheExr) {
+    const Ended ended = render({"--engine", "path", "--aov", "albedo,depth", "-o", "a.exr"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const auto picture = read_picture(folder() / "a.exr");
+    ASSERT_EQ(picture->layers.size(), 2u);
+    EXPECT_EQ(picture->layers[0].name, "albedo");
+    EXPECT_EQ(picture->layers[1].name, "depth");
+}
+
+TEST_F(Commands, StatisticsOfThePathEngineHaveTheDesignsKeys) {
+    const Ended ended = render({"--engine", "path", "--stats", "n.json", "--json", "-o", "a.exr"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json stats = json::parse(read_text(folder() / "n.json"));
+    EXPECT_EQ(keys(stats), (std::vector<std::string>{"peak_rss_bytes", "rays_per_second", "seconds", "spp"}));
+    EXPECT_EQ(stats["spp"], 4);
+    EXPECT_GT(stats["rays_per_second"], 0);
+    EXPECT_EQ(json::parse(ended.output), stats);
+}
+
+TEST_F(Commands, StatisticsOfTheRealtimeEngineHaveTheDesignsKeys) {
+    const Ended ended = render({"--frames-timed", "3", "--stats", "n.json", "-o", "a.exr"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json stats = json::parse(read_text(folder() / "n.json"));
+    EXPECT_EQ(keys(stats),
+              (std::vector<std::string>{"cpu_ms", "device", "gpu_memory_bytes", "gpu_ms_total", "passes", "peak_rss_bytes"}));
+    EXPECT_FALSE(stats["passes"].empty());
+    for (const json& pass : stats["passes"]) EXPECT_EQ(keys(pass), (std::vector<std::string>{"gpu_ms", "name"}));
+    EXPECT_GT(stats["gpu_ms_total"], 0);
+}
+
+TEST_F(Commands, FramesAreNumberedAndTheAnimationMovesBetweenThem) {
+    json scene = json::parse(small_scene);
+    scene["animations"] = json::parse(R"([{ "name": "dim", "channels": [
+        { "target": "nodes.bulb.light.intensity_cd", "times_s": [0, 1], "values": [[400, 400, 400], [100, 100, 100]] }] }])");
+    write("s.heliodon.json", scene.dump());
+    const Ended ended = render({"--engine", "path", "--frames", "0..2", "--fps", "2", "--stats", "n.json", "-o", "a.exr"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const auto first = read_picture(folder() / "a-0000.exr"), last = read_picture(folder() / "a-0002.exr");
+    ASSERT_TRUE(first && last && exists("a-0001.exr"));
+    EXPECT_FALSE(exists("a.exr"));
+    const int below = first->image.height - 4;  // the floor
+    EXPECT_NEAR(last->image.rgb(24, below).g, 0.25f * first->image.rgb(24, below).g, 0.02f * first->image.rgb(24, below).g);
+    EXPECT_EQ(json::parse(read_text(folder() / "n.json"))["frames"].size(), 3u);
+}
+
+TEST_F(Commands, ASceneThatAsksForGlobalIlluminationIsRenderedDirectWithOneWarning) {
+    const Ended ended = render({"--set", "render.gi=vct", "-o", "a.exr"});
+    EXPECT_EQ(ended.code, 0) << ended.error;
+    EXPECT_NE(ended.error.find("heliodon: warning: s.heliodon.json: render.gi \"vct\""), std::string::npos) << ended.error;
+}
+
+TEST_F(Commands, MeasureGivesTheInverseSquareLawWithBothEngines) {
+    for (const std::string engine : {"path", "realtime"}) {
+        const Ended ended = run({"measure", "s.heliodon.json", "--engine", engine, "--spp", "64", "--json"});
+        ASSERT_EQ(ended.code, 0) << ended.error;
+        const json sensors = json::parse(ended.output)["sensors"];
+        ASSERT_EQ(sensors.size(), 1u);
+        EXPECT_EQ(keys(sensors[0]), (std::vector<std::string>{"half_width_95", "name", "rgb", "type", "unit", "value"}));
+        EXPECT_NEAR(sensors[0]["value"], 100.0, 0.05) << engine;
+        EXPECT_EQ(sensors[0]["unit"], "lux");
+        EXPECT_EQ(sensors[0]["type"], "illuminance");
+        EXPECT_EQ(sensors[0]["rgb"].size(), 3u);
+    }
+}
+
+TEST_F(Commands, MeasurePrintsCsvWithQuotedNames) {
+    const Ended ended = run({"measure", "s.heliodon.json", "--spp", "64"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    EXPECT_EQ(ended.output.rfind("name,type,value,r,g,b,unit,half_width_95\n\"under, the bulb\",illuminance,", 0), 0u) << ended.output;
+}
+
+TEST_F(Commands, CompareHasOneKeyAMetricAndWritesAHeatMap) {
+    Picture reference, test;
+    reference.image = Image(32, 24, 3, 0.5f);
+    test.image = Image(32, 24, 3, 0.25f);
+    ASSERT_TRUE(write_picture(folder() / "r.exr", reference));
+    ASSERT_TRUE(write_picture(folder() / "t.exr", test));
+    const Ended ended = run({"compare", "r.exr", "t.exr", "--json", "--heatmap", "h.png"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json metrics = json::parse(ended.output);
+    EXPECT_EQ(keys(metrics),
+              (std::vector<std::string>{"flip", "mae", "median_relative", "mse", "psnr", "relmse", "rmse", "ssim"}));
+    // Published: constants .5 against .25 without exposure.
+    EXPECT_NEAR(metrics["psnr"], 12.0412, 1e-3);
+    EXPECT_NEAR(metrics["relmse"], 0.240385, 1e-5);
+    EXPECT_EQ(read_picture(folder() / "h.png")->image.width, 32);
+}
+
+TEST_F(Commands, CompareTakesTheStoredExposureUnlessOneIsGiven) {
+    Picture reference, test;
+    reference.ev100 = std::log2(10.0f / 1.2f);
+    reference.has_ev100 = true;
+    reference.image = Image(16, 16, 3, 5.0f);
+    test.image = Image(16, 16, 3, 2.5f);
+    ASSERT_TRUE(write_picture(folder() / "r.exr", reference));
+    ASSERT_TRUE(write_picture(folder() / "t.exr", test));
+    EXPECT_NEAR(json::parse(run({"compare", "r.exr", "t.exr", "--json"}).output)["rmse"], 0.25, 1e-5);
+    EXPECT_NEAR(json::parse(run({"compare", "r.exr", "t.exr", "--json", "--ev100", "0"}).output)["rmse"], 2.5 / 1.2, 1e-4);
+}
+
+TEST_F(Commands, CompareRefusesPicturesOfDifferentSizesAndNamesBoth) {
+    Picture reference, test;
+    reference.image = Image(16, 16, 3);
+    test.image = Image(16, 8, 3);
+    ASSERT_TRUE(write_picture(folder() / "r.exr", reference));
+    ASSERT_TRUE(write_picture(folder() / "t.exr", test));
+    const Ended ended = run({"compare", "r.exr", "t.exr"});
+    EXPECT_EQ(ended.code, 1);
+    EXPECT_EQ(ended.error_lines(), 1) << ended.error;
+    EXPECT_NE(ended.error.find("16"), std::string::npos) << ended.error;
+    EXPECT_NE(ended.error.find("8"), std::string::npos) << ended.error;
+}
+
+TEST_F(Commands, InfoCountsAndGivesTheFluxOfLights) {
+    const Ended ended = run({"info", "s.heliodon.json", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json report = json::parse(ended.output);
+    EXPECT_EQ(report["nodes"], 2);
+    EXPECT_EQ(report["triangles"], 2);
+    EXPECT_EQ(report["bounds_m"]["max"], json::parse("[2.0, 0.0, 2.0]"));
+    ASSERT_EQ(report["lights"].size(), 1u);
+    EXPECT_NEAR(report["lights"][0]["flux_lm"], 4 * 3.14159265 * 400, 0.01);
+    EXPECT_TRUE(report["warnings"].empty());
+    const Ended text = run({"info", "s.heliodon.json"});
+    EXPECT_EQ(text.code, 0);
+    EXPECT_NE(text.output.find("bulb"), std::string::npos);
+}
+
+TEST_F(Commands, DevicesAreListedWithWhatTheySupport) {
+    const Ended ended = run({"devices", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json devices = json::parse(ended.output)["devices"];
+    ASSERT_FALSE(devices.empty());
+    for (const json& device : devices) {
+        EXPECT_TRUE(device["name"].is_string());
+        EXPECT_TRUE(device["usable"].is_boolean());
+        EXPECT_TRUE(device["ray_query"].is_boolean());
+        EXPECT_GT(device["memory_bytes"], 0);
+    }
+}
+
+}  // namespace
+}  // namespace heliodon::tests

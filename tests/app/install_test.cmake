@@ -1,0 +1,36 @@
+# Installs into BUILD/install, builds each example as a stand-alone project against it and runs it.
+set(PREFIX ${BUILD}/install)
+set(WORK ${BUILD}/examples)
+file(REMOVE_RECURSE ${PREFIX} ${WORK})
+
+function(step)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE CODE WORKING_DIRECTORY ${BUILD})
+  if(NOT CODE EQUAL 0)
+    list(JOIN ARGN " " COMMAND)
+    message(FATAL_ERROR "failed (${CODE}): ${COMMAND}")
+  endif()
+endfunction()
+
+step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX})
+foreach(EXAMPLE custom_scene custom_pass)
+  step(${CMAKE_COMMAND} -S ${SOURCE}/examples/${EXAMPLE} -B ${WORK}/${EXAMPLE} -G Ninja -D CMAKE_BUILD_TYPE=Release
+       -D CMAKE_PREFIX_PATH=${PREFIX} -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+  step(${CMAKE_COMMAND} --build ${WORK}/${EXAMPLE})
+endforeach()
+
+file(MAKE_DIRECTORY ${WORK}/out)
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE CODE WORKING_DIRECTORY ${WORK}/out)
+  if(NOT CODE EQUAL 0)
+    message(FATAL_ERROR "failed (${CODE}): ${ARGN}")
+  endif()
+endfunction()
+run(${WORK}/custom_scene/custom_scene)
+run(${WORK}/custom_pass/custom_pass custom_scene-realtime.exr bands.exr)
+foreach(FILE custom_scene-path.exr custom_scene-realtime.exr bands.exr)
+  if(NOT EXISTS ${WORK}/out/${FILE})
+    message(FATAL_ERROR "an example did not write ${FILE}")
+  endif()
+endforeach()
+# The installed program stands on its own too.
+run(${PREFIX}/bin/heliodon compare custom_scene-path.exr custom_scene-realtime.exr)
