@@ -96,6 +96,12 @@ SHADING_FN float coat_transmittance(float coat_albedo_o, float coat_albedo_i) {
     return 1.0f - max(coat_albedo_o, coat_albedo_i);
 }
 
+/// An index whose refraction single precision resolves: at 1 every facet sends light straight on and the lobe
+/// has no width (1.001 reflects 2.5·10⁻⁷); glTF's 0 stands for "reflects everything".
+SHADING_FN float glass_ior(float ior) {
+    return abs(ior - 1.0f) < 1.0e-3f ? 1.001f : clamp(ior, 0.01f, 100.0f);
+}
+
 /// Share of glass's multiple scattering that is refracted: Kulla & Conty 2017. The two sides' shares are
 /// in the ratio that makes refraction reciprocal, (1 − Favg)/(1 − Eavg), scaled so that neither exceeds
 /// what Fresnel's average lets through from the thin side, nor 1.
@@ -144,7 +150,7 @@ SHADING_FN BsdfLobes bsdf_prepare(Surface s, vec3 wo) {
     BsdfLobes l;
     l.alpha = ggx_alpha(s.roughness);
     l.coat_alpha = ggx_alpha(s.clearcoat_roughness);
-    l.eta = s.inside ? 1.0f / s.ior : s.ior;
+    l.eta = s.inside ? 1.0f / glass_ior(s.ior) : glass_ior(s.ior);
     // Seen from inside, only glass scatters; the other shares absorb.
     l.metal = s.inside ? 0.0f : s.metallic;
     l.dielectric = s.inside ? 0.0f : (1.0f - s.metallic) * (1.0f - s.transmission);

@@ -20,7 +20,7 @@
 SHADING_BEGIN
 
 // The array: A, B interleaved, row by row; averages of A, B a row; glass by side (thin, dense), index,
-// row, column; its averages by side, index, row; the average Fresnel reflectance by side, index.
+// row, column; its averages by side, index, row; the average Fresnel reflectance by index.
 SHADING_CONST uint ggx_albedo_columns = 64u;
 SHADING_CONST uint ggx_albedo_rows = 128u;
 SHADING_CONST uint ggx_albedo_averages = 2u * 128u * 64u;
@@ -30,7 +30,7 @@ SHADING_CONST uint glass_indices = 12u;
 SHADING_CONST uint glass_albedo_start = 2u * 128u * 64u + 2u * 128u;
 SHADING_CONST uint glass_average_start = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u;
 SHADING_CONST uint glass_fresnel_start = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u;
-SHADING_CONST uint shading_table_size = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u + 2u * 12u;
+SHADING_CONST uint shading_table_size = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u + 12u;
 SHADING_CONST float glass_largest_f0_root = 0.5f;  // (n − 1)/(n + 1) of the last index, n = 3
 
 #ifndef __cplusplus
@@ -109,11 +109,13 @@ SHADING_FN float glass_albedo_average(float alpha, float eta) {
     float y = row - float(j);
     return mix(glass_albedo_row(first, y), glass_albedo_row(first + glass_rows, y), z);
 }
-/// Cosine-weighted average of the exact Fresnel reflectance.
+/// Cosine-weighted average of the exact Fresnel reflectance. From the dense side it follows from the thin
+/// side's: as much light passes either way, n² (1 − Favg) of the dense = 1 − Favg of the thin.
 SHADING_FN float glass_fresnel_average(float eta) {
     float z;
-    uint k = glass_index(eta, z);
-    return glass_albedo_row(glass_fresnel_start + k, z);
+    uint k = glass_index(max(eta, 1.0f / eta), z);
+    float thin = glass_albedo_row(glass_fresnel_start + k, z);
+    return eta >= 1.0f ? thin : 1.0f - (1.0f - thin) * eta * eta;
 }
 
 SHADING_END

@@ -160,14 +160,10 @@ void fill_reflection(std::span<float> table, const Rules& rules) {
 }
 
 double fresnel_average(float eta) {
-    // The critical cosine splits the integral: reflection is total below it.
     const GaussLegendre<32> rule;
-    const double critical = eta < 1.0f ? std::sqrt(1.0 - static_cast<double>(eta) * eta) : 0.0;
-    double sum = critical * critical;
+    double sum = 0;
     for (std::size_t i = 0; i < 32; ++i) {
-        // The square in the map removes the root at the critical cosine.
-        const double t = rule.x[i], mu = critical + (1.0 - critical) * t * t;
-        sum += rule.weight[i] * 2.0 * t * (1.0 - critical) * 2.0 * mu * fresnel_dielectric(static_cast<float>(mu), eta);
+        sum += rule.weight[i] * 2.0 * rule.x[i] * fresnel_dielectric(static_cast<float>(rule.x[i]), eta);
     }
     return sum;
 }
@@ -189,7 +185,7 @@ void fill_glass(std::span<float> table, const Rules& rules) {
             }
             table[glass_average_start + k * glass_rows + j] = glass_average(row, alpha);
         }
-        table[glass_fresnel_start + k] = static_cast<float>(fresnel_average(eta));
+        if (k < glass_indices) table[glass_fresnel_start + k] = static_cast<float>(fresnel_average(eta));
     }
 }
 
