@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "import/import.h"
+#include "import/mesh_completion.h"
+
+namespace heliodon {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+/// Mean reflectance that exposure meters assume (ISO 2720:1974 reduces to it): an 18 % grey card.
+constexpr double grey_card = 0.18;
+
+double luminance(glm::vec3 rgb) { return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722)); }
+
+bool has_lights(const Scene& scene) {
+    bool found = false;
+    scene.nodes().each([&](NodeId, const Node& node) { found |= node.light.has_value(); });
+    return found;
+}
+
+/// Mean luminance of the sky over the sphere of directions, cd/m².
+double mean_sky_luminance(const Scene& scene) {
+    const Sky& sky = scene.sky();
+    if (sky.model == SkyModel::constant) return luminance(sky.luminance_nits);
+    const Texture* image = sky.model == SkyModel::image ? scene.textures().find(sky.image) : nullptr;
+    if (!image || image->levels.empty()) return 0;
+    double sum = 0, weights = 0;
+    for (int y = 0; y < image->height; ++y) {
+        const double solid_angle = std::sin(pi * (y + 0.5) / image->height);
+        for (int x = 0; x < image->width; ++x) {
+            glm::vec4 texel;
+            std::memcpy(&texel, &image->levels[0][(std::size_t(y) * image->width + x) * sizeof texel], sizeof texel);
+            sum += solid_angle * luminance(glm::vec3(texel) * sky.luminance_nits);
+            weights += solid_angle;
+        }
+    }
+    return sum / weights;
+}
+
+/// Flux of the glowing surfaces in lm: π · L · A (Lambert), textures left aside.
+double emitted_flux(const Scene& scene) {
+    double flux = 0;
+    scene.nodes().each([&](NodeId id, const Node& node) {
+        for (const Part& part : node.parts) {
+            const Material* material = scene.materials().find(part.material);
+            const Geometry* geometry = scene.geometries().find(part.geometry);
+            if (!material || !geometry || material->model == MaterialModel::unlit || luminance(material->emission_nits) <= 0) continue;
+            const glm::mat4 world = scene.world_matrix(id);
+            const Mesh& mesh = geometry->mesh;
+            double area = 0;
+            for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+                const auto corner = [&](std::size_t k) { return glm::vec3(world * glm::vec4(mesh.positions[mesh.indices[i + k]], 1)); };
+                area += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+            }
+            flux += pi * luminance(material->emission_nits) * area;
+        }
+    });
+    return flux;
+}
+
+/// Mean illuminance that the scene's own light gives its surfaces, lux: the flux of lamps and glowing
+/// surfaces over the area of the box round the scene (what a closed room receives directly), half of what
+/// directional lights send (the mean over the lit half of a sphere), and π times the sky's mean luminance.
+double mean_illuminance(const Scene& scene) {
+    const Bounds bounds = scene.bounds();
+    const glm::dvec3 e(bounds.extent());
+    const double area = 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
+    double flux = emitted_flux(scene), illuminance = pi * mean_sky_luminance(scene);
+    scene.nodes().each([&](NodeId, const Node& node) {
+        if (!node.light) return;
+        if (node.light->type == LightType::directional) illuminance += luminance(node.light->intensity) / 2;
+        else flux += flux_lm(*node.light);
+    });
+    return area > 0 ? illuminance + flux / area : illuminance;
+}
+
+/// The exposure a reflected-light meter would set for a grey card under the scene's light: EV100 =
+/// log2(L · S / K), K = 12.5 (ISO 2720:1974, section 5).
+std::optional<float> metered_ev100(const Scene& scene) {
+    constexpr double k = 12.5, iso = 100;
+    const double card = grey_card * mean_illuminance(scene) / pi;
+    if (!(card > 0) || !std::isfinite(card)) return std::nullopt;
+    return float(std::log2(card * iso / k));
+}
+
+/// Looks at the whole scene from the front, a little from the right and above.
+Camera framing_camera(const Bounds& bounds) {
+    Camera camera;
+    camera.name = "default";
+    camera.vertical_fov_rad = float(40 * pi / 180);
+    const float radius = bounds.empty() ? 1.0f : std::max(0.5f * bounds.diagonal(), 1e-6f);
+    camera.target = bounds.empty() ? glm::vec3(0) : bounds.center();
+    // The sphere round the bounds just fits into the vertical field of view.
+    const float distance = radius / std::sin(0.5f * camera.vertical_fov_rad);
+    camera.position = camera.target + distance * glm::normalize(glm::vec3(0.5f, 0.35f, 1.0f));
+    return camera;
+}
+
+void make_presentable(Scene& scene, const std::string& where, bool is_model, Warnings& warnings) {
+    const bool bring_camera = scene.cameras().size() == 0;
+    if (is_model && !has_lights(scene)) {
+        // The horizontal illuminance of an overcast day that daylight factors are customarily turned into lux with.
+        constexpr double overcast_lux = 10000;
+        Sky sky;
+        sky.model = SkyModel::constant;
+        sky.luminance_nits = glm::vec3(float(overcast_lux / pi));
+        scene.set_sky(sky);
+        warnings.push_back({where, fmt::format("has no lights: stands under a uniform sky of {:.0f} cd/m² (10 000 lx)", overcast_lux / pi)});
+    }
+    if (bring_camera) {
+        scene.add_camera(framing_camera(scene.bounds()));
+        warnings.push_back({where, "has no camera: one that sees all of it is taken"});
+    }
+    // A scene file's cameras carry their own exposure; a model's have none.
+    if (!is_model && !bring_camera) return;
+    const std::optional<float> ev100 = metered_ev100(scene);
+    if (!ev100) return;
+    std::vector<CameraId> cameras;
+    scene.cameras().each([&](CameraId id, const Camera&) { cameras.push_back(id); });
+    for (const CameraId id : cameras) {
+        Camera camera = *scene.cameras().find(id);
+        camera.ev100_override = *ev100;
+        scene.set_camera(id, std::move(camera));
+    }
+    warnings.push_back({where, fmt::format("has no exposure: EV100 {:.2f} is taken, what a meter reads of an 18 % grey card in its light", *ev100)});
+}
+
+/// A scene file may give a normal map to a model that came without tangents.
+void make_missing_tangents(Scene& scene) {
+    std::vector<std::pair<GeometryId, int>> lacking;
+    scene.nodes().each([&](NodeId, const Node& node) {
+        for (const Part& part : node.parts) {
+            const Material* material = scene.materials().find(part.material);
+            const Geometry* geometry = scene.geometries().find(part.geometry);
+            if (!material || !geometry || (!material->normal_texture.texture && !material->bump_texture.texture)) continue;
+            const int set = material->normal_texture.texture ? material->normal_texture.texcoord : material->bump_texture.texcoord;
+            if (geometry->mesh.tangents.empty() && !geometry->mesh.texcoords[set].empty()) lacking.push_back({part.geometry, set});
+        }
+    });
+    for (const auto& [id, set] : lacking) {
+        Geometry geometry = *scene.geometries().find(id);
+        if (!geometry.mesh.tangents.empty()) continue;
+        import::make_tangents(geometry.mesh, set);
+        scene.set_geometry(id, std::move(geometry));
+    }
+}
+
+}  // namespace
+
+Result<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides, Warnings& warnings) {
+    if (path.extension() == ".json") {
+        Result<Scene> scene = read_scene_file(path, overrides, scene_file_readers(), warnings);
+        if (!scene) return scene;
+        make_missing_tangents(*scene);
+        make_presentable(*scene, path.string(), false, warnings);
+        return scene;
+    }
+    if (!overrides.empty())
+        return fail(path.string(), fmt::format("--set {} needs a scene file; a model has no such fields", overrides[0].path));
+    Scene scene;
+    const Result<NodeId> root = import_model(scene, {}, path, warnings);
+    if (!root) return tl::unexpected(root.error());
+    make_presentable(scene, path.string(), true, warnings);
+    return scene;
+}
+
+}  // namespace heliodon
