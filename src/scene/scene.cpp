@@ -48,7 +48,7 @@ glm::quat rotation_from_euler_deg(glm::vec3 degrees) {
 
 glm::mat4 Scene::world_matrix(NodeId id) const {
     glm::mat4 result(1.0f);
-    for (const Node* node = nodes_.find(id); node; node = nodes_.find(node->parent_))
+    for (const Node* node = nodes_.find(id); node; node = nodes_.find(node->links.parent))
         result = node->local_matrix() * result;
     return result;
 }
@@ -56,7 +56,7 @@ glm::mat4 Scene::world_matrix(NodeId id) const {
 bool Scene::world_visible(NodeId id) const {
     const Node* node = nodes_.find(id);
     if (!node) return false;
-    for (; node; node = nodes_.find(node->parent_))
+    for (; node; node = nodes_.find(node->links.parent))
         if (!node->visible) return false;
     return true;
 }
@@ -74,7 +74,7 @@ Bounds Scene::bounds() const {
         for (const Part& part : node.parts)
             if (const Geometry* geometry = geometries_.find(part.geometry))
                 result.include(geometry->bounds.transformed(to_world));
-        for (const NodeId child : node.children_) pending.emplace_back(child, to_world);
+        for (const NodeId child : node.links.children) pending.emplace_back(child, to_world);
     }
     return result;
 }
@@ -100,14 +100,14 @@ void Scene::record(Change::Table table, std::uint8_t aspects, std::uint32_t inde
 }
 
 std::vector<NodeId>& Scene::siblings(const Node& node) {
-    Node* parent = nodes_.find(node.parent_);
-    return parent ? parent->children_ : roots_;
+    Node* parent = nodes_.find(node.links.parent);
+    return parent ? parent->links.children : roots_;
 }
 
 NodeId Scene::add_node(Node node, NodeId parent) {
     if (parent && !nodes_.contains(parent)) return {};
-    node.parent_ = parent;
-    node.children_.clear();
+    node.links.parent = parent;
+    node.links.children.clear();
     const NodeId id = nodes_.insert(std::move(node));
     siblings(*nodes_.find(id)).push_back(id);
     record(Change::Table::node, Change::added, id.index);
@@ -162,7 +162,7 @@ bool Scene::remove(NodeId id) {
     std::erase(siblings(*node), id);
     std::vector<NodeId> subtree{id};
     for (std::size_t i = 0; i < subtree.size(); ++i) {
-        const std::vector<NodeId>& children = nodes_.find(subtree[i])->children_;
+        const std::vector<NodeId>& children = nodes_.find(subtree[i])->links.children;
         subtree.insert(subtree.end(), children.begin(), children.end());
     }
     for (const NodeId below : subtree) {
@@ -264,11 +264,11 @@ bool Scene::set_name(NodeId id, std::string name) {
 bool Scene::set_parent(NodeId id, NodeId parent) {
     Node* node = nodes_.find(id);
     if (!node || (parent && !nodes_.contains(parent))) return false;
-    for (NodeId above = parent; above; above = nodes_.find(above)->parent_)
+    for (NodeId above = parent; above; above = nodes_.find(above)->links.parent)
         if (above == id) return false;
-    if (node->parent_ == parent) return true;
+    if (node->links.parent == parent) return true;
     std::erase(siblings(*node), id);
-    node->parent_ = parent;
+    node->links.parent = parent;
     siblings(*node).push_back(id);
     record(Change::Table::node, Change::hierarchy, id.index);
     return true;

@@ -41,6 +41,14 @@ struct Part {
     MaterialId material;
 };
 
+/// A node's place in the hierarchy, which only the scene changes.
+class NodeLinks {
+    friend class Scene;
+    friend struct Node;
+    NodeId parent;
+    std::vector<NodeId> children;
+};
+
 struct Node {
     std::string name;
     Transform transform;
@@ -49,14 +57,11 @@ struct Node {
     std::optional<Light> light;
     bool visible = true;  ///< hides the node and all below it
 
-    [[nodiscard]] glm::mat4 local_matrix() const { return matrix ? *matrix : transform.matrix(); }
-    [[nodiscard]] NodeId parent() const { return parent_; }
-    [[nodiscard]] std::span<const NodeId> children() const { return children_; }
+    NodeLinks links;
 
-private:
-    friend class Scene;
-    NodeId parent_;
-    std::vector<NodeId> children_;
+    [[nodiscard]] glm::mat4 local_matrix() const { return matrix ? *matrix : transform.matrix(); }
+    [[nodiscard]] NodeId parent() const { return links.parent; }
+    [[nodiscard]] std::span<const NodeId> children() const { return links.children; }
 };
 
 enum class SkyModel : std::uint8_t { none, constant, image };
