@@ -106,13 +106,18 @@ Result<void> check_writable(const std::filesystem::path& path) {
     return check_directory_writable(path);
 }
 
+Result<Picture> decode_picture(const std::filesystem::path& name, std::string_view bytes) {
+    const Format* format = format_of(name);
+    if (format == nullptr) return unknown_ending(name);
+    if (bytes.empty()) return fail(name.string(), "the file is empty");
+    return located(name, [&] { return format->decode(bytes); });
+}
+
 Result<Picture> read_picture(const std::filesystem::path& path) {
-    const Format* format = format_of(path);
-    if (format == nullptr) return unknown_ending(path);
+    if (format_of(path) == nullptr) return unknown_ending(path);
     const Result<std::string> bytes = read_file(path);
     if (!bytes) return tl::unexpected(bytes.error());
-    if (bytes->empty()) return fail(path.string(), "the file is empty");
-    return located(path, [&] { return format->decode(*bytes); });
+    return decode_picture(path, *bytes);
 }
 
 Result<void> write_picture(const std::filesystem::path& path, const Picture& picture) {

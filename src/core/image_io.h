@@ -13,6 +13,8 @@ namespace heliodon {
 /// from sRGB to linear. An EXR's picture is its R G B (A) or Y, else its first layer; of several parts the
 /// first is read, over its data window. Errors name the file and what is wrong with it.
 [[nodiscard]] Result<Picture> read_picture(const std::filesystem::path& path);
+/// The same from a file's bytes; `name` gives the ending and stands in messages.
+[[nodiscard]] Result<Picture> decode_picture(const std::filesystem::path& name, std::string_view bytes);
 
 /// Writes by ending: .exr (float, absolute values, `whiteLuminance` = 1, `ev100`, layers), .hdr, .pfm
 /// (linear), .png, .jpg (values already tone-mapped and *display-encoded* to [0,1]: units::srgb_encode).

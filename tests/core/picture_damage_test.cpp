@@ -27,10 +27,8 @@ protected:
     [[nodiscard]] std::string ending() const { return GetParam(); }
     [[nodiscard]] std::filesystem::path path() const { return directory_ / ("picture" + ending()); }
 
-    Result<Picture> read(const std::string& bytes) const {
-        std::ofstream(path(), std::ios::binary) << bytes;
-        return read_picture(path());
-    }
+    /// As read from a file with these bytes.
+    Result<Picture> read(const std::string& bytes) const { return decode_picture(path(), bytes); }
     void expect_located(const Error& error) const {
         EXPECT_EQ(error.where, path().string());
         EXPECT_FALSE(error.message.empty());
