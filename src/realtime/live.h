@@ -4,35 +4,34 @@
 #include <string>
 #include <vector>
 
-#include "gpu/commands.h"
+#include "core/result.h"
 #include "gpu/device.h"
-#include "gpu/pipeline.h"
 #include "realtime/renderer.h"
 #include "scene/scene.h"
 
-namespace heliodon {
+namespace heliodon::realtime {
 
-/// What one live frame left.
-struct LiveFrame {
-    const gpu::Image* image = nullptr;  ///< RGBA8, exposed, tone-mapped, sRGB-encoded; its tracked state is true
-    int accumulated_frames = 0;         ///< jittered frames averaged since anything last changed
-};
-
-/// The real-time engine for a window: one frame a call of a scene that may change between calls, recorded
-/// into the caller's commands on the caller's device. A picture that stays still goes on converging.
+/// The real-time engine for a window: every call renders one frame of a scene that may have changed. While
+/// nothing changes the frames accumulate to the still picture; any change starts anew.
 class LiveRenderer {
 public:
-    /// `device` must outlive this. `shader_directory`: as RealtimeSettings'.
+    /// `device` must outlive this. `shader_directory`: see RealtimeSettings.
     [[nodiscard]] static Result<LiveRenderer> create(gpu::Device& device, const std::string& shader_directory = {});
     ~LiveRenderer();
     LiveRenderer(LiveRenderer&&) noexcept;
     LiveRenderer& operator=(LiveRenderer&&) noexcept;
 
-    /// Follows the scene's journal and records one frame of `width` × `height`.
-    [[nodiscard]] Result<LiveFrame> render(gpu::Commands& commands, const Scene& scene, const Camera& camera, int width, int height);
-    /// Milliseconds a pass of the latest frame that is complete, without waiting for any.
-    [[nodiscard]] std::vector<PassTime> pass_times();
-    [[nodiscard]] gpu::Pipelines& pipelines();
+    struct Frame {
+        /// RGBA8, display-encoded; its state() says its layout. Valid until the next render().
+        const gpu::Image* image = nullptr;
+        int samples = 0;                ///< accumulated in it
+        std::vector<PassTime> passes;   ///< GPU milliseconds of a frame a little earlier
+        double gpu_ms_total = 0;
+    };
+    /// Submits the frame's work; the caller's next submission sees the finished picture. Does not wait for it.
+    [[nodiscard]] Result<Frame> render(const Scene& scene, const Camera& camera, int width, int height, bool environment = true);
+    /// Compiles changed shaders again; the first error, if any (the old code then stays in use).
+    [[nodiscard]] Result<void> reload_shaders();
 
 private:
     struct State;
@@ -40,4 +39,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-}  // namespace heliodon
+}  // namespace heliodon::realtime

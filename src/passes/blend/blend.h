@@ -1,0 +1,17 @@
+#pragma once
+
+#include "passes/shade/shade.h"
+
+namespace heliodon::passes {
+
+/// Bytes of a fragment buffer for `capacity` fragments; its second word keeps the most that any sample wanted.
+[[nodiscard]] VkDeviceSize blend_buffer_bytes(std::uint32_t capacity);
+
+/// Alpha-blended surfaces over `picture`: a list of fragments a pixel, shaded from back to front. Fragments
+/// that find no room in `fragments` are counted there, not drawn.
+[[nodiscard]] Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene,
+                                     const LightingInputs& lighting, const gpu::Buffer& views, const DrawLists& lists,
+                                     const Visibility& visibility, graph::ImageHandle shadow_maps,
+                                     graph::BufferHandle fragments, graph::ImageHandle picture, VkExtent2D extent);
+
+}  // namespace heliodon::passes

@@ -1,0 +1,102 @@
+// What every pass of the real-time engine reads, in C++ and GLSL: the frame, the views and the geometry
+// table. std430: each member is placed so that both languages see the same bytes.
+#ifndef HELIODON_PASSES_FRAME_SHARED_H
+#define HELIODON_PASSES_FRAME_SHARED_H
+#include "shading/language.h"
+SHADING_BEGIN
+
+SHADING_CONST uint no_attribute = 0xffffffffu;
+
+/// Where one geometry lies in the mega buffers: offsets count floats (attributes) or indices.
+struct GeometryData {
+    vec3 bounds_min;
+    uint position_offset;
+    vec3 bounds_max;
+    uint normal_offset;
+    uint tangent_offset;
+    uint texcoord0_offset;
+    uint texcoord1_offset;
+    uint color_offset;
+    uint first_index;
+    uint index_count;  // 0: a hole in the table
+    uint padding0;
+    uint padding1;
+};
+
+/// One camera's frame. A pixel's ray leaves `position` along
+/// ray_corner + (x + ½ + jitter.x) ray_dx + (y + ½ + jitter.y) ray_dy, whose component along `forward` is 1.
+struct FrameData {
+    mat4 world_to_clip;  // jittered; reversed depth, far plane at infinity unless the camera has one
+    vec3 position;
+    float exposure;  // 1 / (1.2 · 2^EV100)
+    vec3 forward;
+    float near_m;
+    vec3 ray_corner;
+    uint width;
+    vec3 ray_dx;
+    uint height;
+    vec3 ray_dy;
+    uint sample_index;
+    vec2 jitter;
+    float texture_gradient_scale;  // 1/√samples for a still picture: each sample covers that share of the pixel
+    uint sky_enabled;
+    uint instance_count;
+    uint light_first;  // lights of this batch
+    uint light_count;
+    uint batch;  // 0 overwrites and adds emission and sky; later batches only add their lights
+    uint aov;    // frame_aov_…
+    uint shadow_filter;  // shadow_filter_…
+    uint fragment_capacity;
+    uint random_seed;
+};
+
+SHADING_CONST uint frame_aov_none = 0u;
+SHADING_CONST uint frame_aov_albedo = 1u;
+SHADING_CONST uint frame_aov_normal = 2u;
+SHADING_CONST uint frame_aov_depth = 3u;
+SHADING_CONST uint frame_aov_position = 4u;
+SHADING_CONST uint frame_aov_direct = 5u;
+SHADING_CONST uint frame_aov_indirect = 6u;
+
+SHADING_CONST uint shadow_filter_nearest = 0u;  // the texel grid moves between samples and the mean filters
+SHADING_CONST uint shadow_filter_percentage_closer = 1u;
+
+SHADING_CONST uint shadow_kind_perspective = 0u;
+SHADING_CONST uint shadow_kind_orthographic = 1u;
+
+/// One layer of the shadow map array. The point seen at normalized device coordinates (u, v) lies at
+///   perspective:  origin + w (forward + u axis_u + v axis_v), stored depth near_m / w
+///   orthographic: origin + u axis_u + v axis_v + t forward,   stored depth 1 − t / range_m
+struct ShadowViewData {
+    mat4 world_to_clip;
+    vec3 origin;
+    uint kind;
+    vec3 axis_u;
+    float near_m;
+    vec3 axis_v;
+    float range_m;
+    vec3 forward;
+    uint layer;
+};
+
+/// What a cull or raster view needs.
+struct ViewData {
+    mat4 world_to_clip;
+};
+
+SHADING_CONST uint draw_list_opaque = 0u;
+SHADING_CONST uint draw_list_tested = 1u;   // alpha-masked (and, in shadow views, blended)
+SHADING_CONST uint draw_list_blended = 2u;
+SHADING_CONST uint draw_lists_per_view = 3u;
+
+/// VkDrawIndexedIndirectCommand
+struct DrawCommand {
+    uint index_count;
+    uint instance_count;
+    uint first_index;
+    int vertex_offset;
+    uint first_instance;
+};
+
+SHADING_END
+#endif

@@ -1,0 +1,80 @@
+// Light that arrives at a surface point from the scene's lights and the sky and leaves towards the viewer.
+#ifndef HELIODON_LIGHTING_GLSL
+#define HELIODON_LIGHTING_GLSL
+#include "passes/common/shadow_lookup.glsl"
+#include "passes/common/surface.glsl"
+#include "passes/common/hash.glsl"
+#include "shading/environment.h"
+#include "shading/light.h"
+#include "shading/sky.h"
+
+layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
+float shading_table(uint index) { return shading_tables[index]; }
+
+vec3 lights_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, FrameData frame, uint pixel_seed) {
+    vec3 sum = vec3(0.0f);
+    for (uint i = 0u; i < frame.light_count; ++i) {
+        const LightData light = light_table[active_light_table[frame.light_first + i]];
+        const uint seed = pcg_hash(pixel_seed + i);
+        const LightSample arriving = light_sample(light, point.position, vec2(unit_interval(seed), unit_interval(pcg_hash(seed))));
+        if (arriving.value == vec3(0.0f)) continue;
+        const vec3 wi = to_local(point.frame, arriving.direction);
+        const vec3 reflected = bsdf_evaluate_prepared(point.material.surface, lobes, wo, wi) *
+                               same_side(arriving.direction, point.geometric, wi.z) * arriving.value;
+        if (reflected == vec3(0.0f)) continue;
+        sum += reflected * light_visibility(light, point.position, point.geometric, frame.shadow_filter);
+    }
+    return sum;
+}
+
+vec3 sky_map(uint slot, vec3 direction, float level) {
+    return textureLod(textures[nonuniformEXT(slot)], sky_uv(direction, sky_data.north_rad), level).rgb;
+}
+
+vec3 sky_seen(vec3 direction) {
+    vec3 texel = vec3(1.0f);
+    if (sky_data.model == sky_model_image && sky_image_slot != no_texture) texel = sky_map(sky_image_slot, direction, 0.0f);
+    return sky_radiance(sky_data, texel);
+}
+
+/// Irradiance / π on a plane of this normal under the open sky.
+vec3 sky_diffuse(vec3 normal) {
+    vec3 texel = vec3(1.0f);
+    if (sky_data.model == sky_model_image && sky_irradiance_slot != no_texture) texel = sky_map(sky_irradiance_slot, normal, 0.0f);
+    return sky_radiance(sky_data, texel);
+}
+
+vec3 sky_specular(vec3 normal, vec3 wo, float roughness) {
+    vec3 texel = vec3(1.0f);
+    if (sky_data.model == sky_model_image && sky_specular_slot != no_texture) {
+        const vec3 mirror = reflect(-wo, normal);
+        texel = sky_map(sky_specular_slot, dominant_reflection(normal, mirror, roughness), roughness * float(sky_specular_levels - 1u));
+    }
+    return sky_radiance(sky_data, texel);
+}
+
+/// The open sky by split sums; occlusion darkens its diffuse part alone.
+vec3 sky_reflected(SurfacePoint point, BsdfLobes lobes) {
+    const Surface surface = point.material.surface;
+    const vec3 normal = point.frame.normal;
+    vec3 sum = bsdf_diffuse_albedo_prepared(surface, lobes) * point.material.occlusion * sky_diffuse(normal);
+    sum += bsdf_specular_albedo_prepared(surface, lobes) * sky_specular(normal, point.wo, surface.roughness);
+    if (lobes.coat_albedo > 0.0f)
+        sum += bsdf_coat_albedo_prepared(lobes) * sky_specular(normal, point.wo, surface.clearcoat_roughness);
+    return sum;
+}
+
+/// Radiance towards the viewer: this batch's lights; emission and sky with the first batch.
+vec3 surface_radiance(SurfacePoint point, FrameData frame, uint pixel_seed) {
+    if (point.dark) return vec3(0.0f);
+    const vec3 wo = to_local(point.frame, point.wo);
+    const BsdfLobes lobes = bsdf_prepare(point.material.surface, wo);
+    vec3 radiance = lights_reflected(point, lobes, wo, frame, pixel_seed);
+    if (frame.batch == 0u) {
+        radiance += point.material.emission;
+        if (frame.sky_enabled != 0u && sky_data.model != sky_model_none && wo.z > 0.0f) radiance += sky_reflected(point, lobes);
+    }
+    return radiance;
+}
+
+#endif

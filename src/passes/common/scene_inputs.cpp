@@ -1,0 +1,20 @@
+#include "passes/common/scene_inputs.h"
+
+#include <algorithm>
+
+namespace heliodon::passes {
+
+std::vector<gpu::Binding> select_bindings(const gpu::Pipeline& pipeline, const SceneInputs& scene,
+                                          std::initializer_list<NumberedBinding> own) {
+    std::vector<gpu::Binding> selected;
+    for (const gpu::ShaderBinding& declared : pipeline.layout().bindings()) {
+        const auto found = std::find_if(own.begin(), own.end(),
+                                        [&](const NumberedBinding& b) { return b.first == declared.binding; });
+        if (found != own.end()) selected.push_back(found->second);
+        else if (declared.binding < scene.tables.size()) selected.push_back(scene.tables[declared.binding]);
+        // A binding that is missing here makes Commands refuse the call and name it.
+    }
+    return selected;
+}
+
+}  // namespace heliodon::passes

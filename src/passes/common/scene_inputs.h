@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+#include "gpu/commands.h"
+#include "gpu/pipeline.h"
+
+namespace heliodon::passes {
+
+/// What the passes need of the scene in the frame being recorded. Its owner keeps it at one address and
+/// brings it up to date before each frame.
+struct SceneInputs {
+    std::vector<gpu::Binding> tables;  ///< bindings 0 to 7 of scene_tables.glsl
+    const gpu::Buffer* index_buffer = nullptr;
+    std::uint32_t instance_count = 0;
+    bool has_tested = false;   ///< something visible is alpha-masked
+    bool has_blended = false;  ///< something visible is alpha-blended
+    std::uint32_t draw_calls = 0;  ///< indirect draws recorded; the passes count
+};
+
+using NumberedBinding = std::pair<std::uint32_t, gpu::Binding>;
+
+/// The bindings that a pipeline's shaders declare, in its order: the scene's tables by their numbers, the
+/// others from `own`.
+[[nodiscard]] std::vector<gpu::Binding> select_bindings(const gpu::Pipeline& pipeline, const SceneInputs& scene,
+                                                        std::initializer_list<NumberedBinding> own);
+
+}  // namespace heliodon::passes

@@ -1,0 +1,91 @@
+// Does a light reach a point? Every tap compares the stored depth with the depth of the receiver's own
+// plane at that tap (receiver-plane depth: Isidoro 2006, "Shadow Mapping: GPU-based Tips and Techniques"),
+// so a lit plane never shadows itself at any slope or scale and the only bias left is what rasterization
+// itself rounds.
+#ifndef HELIODON_SHADOW_LOOKUP_GLSL
+#define HELIODON_SHADOW_LOOKUP_GLSL
+#include "passes/common/scene_tables.glsl"
+
+layout(set = 0, binding = 9, std430) readonly buffer ShadowViews { ShadowViewData shadow_views[]; };
+layout(set = 0, binding = 10) uniform sampler2DArray shadow_maps;
+
+// Vertices snap to 1/256 texel (VkPhysicalDeviceLimits::subPixelPrecisionBits is 8 or more) before a
+// triangle's depth is set up; twice that covers both ends of an edge.
+const float shadow_snap_texels = 2.0f / 256.0f;
+// Depth is a plane equation in 32-bit floats: a few rounding errors of its terms.
+const float shadow_depth_rounding = 1.0f / 1048576.0f;
+
+/// A stored depth as a linear function of the view's normalized device coordinates.
+struct ReceiverPlane {
+    float depth;  // at (0, 0)
+    vec2 gradient;
+    vec2 at;      // the receiver's own coordinates
+    float own_depth;
+};
+
+ReceiverPlane receiver_plane(ShadowViewData view, vec3 point, vec3 normal) {
+    ReceiverPlane plane;
+    const vec3 offset = point - view.origin;
+    const vec4 clip = view.world_to_clip * vec4(point, 1.0f);
+    plane.at = clip.xy / clip.w;
+    plane.own_depth = clip.z / clip.w;
+    if (view.kind == shadow_kind_perspective) {
+        // 1/w along the ray forward + u axis_u + v axis_v is linear in (u, v).
+        const float scale = view.near_m / dot(normal, offset);
+        plane.gradient = scale * vec2(dot(normal, view.axis_u), dot(normal, view.axis_v));
+    } else {
+        const float scale = 1.0f / (view.range_m * dot(normal, view.forward));
+        plane.gradient = scale * vec2(dot(normal, view.axis_u), dot(normal, view.axis_v));
+    }
+    plane.depth = plane.own_depth - dot(plane.gradient, plane.at);
+    return plane;
+}
+
+/// 1 where nothing stored at the texel stands before the receiver's plane.
+float shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, int size) {
+    const vec2 center = (vec2(texel) + 0.5f) * (2.0f / float(size)) - 1.0f;
+    const float stored = texelFetch(shadow_maps, ivec3(clamp(texel, ivec2(0), ivec2(size - 1)), int(view.layer)), 0).r;
+    const float slope = abs(plane.gradient.x) + abs(plane.gradient.y);
+    const float bias = slope * shadow_snap_texels * (2.0f / float(size)) +
+                       shadow_depth_rounding * (abs(plane.depth) + slope + (view.kind == shadow_kind_orthographic ? 1.0f : 0.0f));
+    float expected = plane.depth + dot(plane.gradient, center);
+    // A grazing plane can pass behind a perspective view's horizon within the texel: what stands there is
+    // compared with half the receiver's own depth at least.
+    if (view.kind == shadow_kind_perspective) expected = max(expected, 0.5f * plane.own_depth);
+    return stored <= expected + bias ? 1.0f : 0.0f;
+}
+
+float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode) {
+    const ShadowViewData view = shadow_views[view_index];
+    const int size = textureSize(shadow_maps, 0).x;
+    const ReceiverPlane plane = receiver_plane(view, point, normal);
+    if (any(greaterThan(abs(plane.at), vec2(1.0f)))) return 1.0f;  // outside what the light's map covers
+    const vec2 position = (plane.at * 0.5f + 0.5f) * float(size);
+    if (filter_mode == shadow_filter_nearest) return shadow_tap(view, plane, ivec2(floor(position)), size);
+    // Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels.
+    const ivec2 first = ivec2(floor(position - 0.5f));
+    const vec2 weight = position - 0.5f - vec2(first);
+    const float bottom = mix(shadow_tap(view, plane, first, size), shadow_tap(view, plane, first + ivec2(1, 0), size), weight.x);
+    const float top = mix(shadow_tap(view, plane, first + ivec2(0, 1), size),
+                          shadow_tap(view, plane, first + ivec2(1, 1), size), weight.x);
+    return mix(bottom, top, weight.y);
+}
+
+/// Face of a cube of views: +X −X +Y −Y +Z −Z, by the major axis.
+uint cube_face(vec3 direction) {
+    const vec3 size = abs(direction);
+    if (size.x >= size.y && size.x >= size.z) return direction.x >= 0.0f ? 0u : 1u;
+    if (size.y >= size.z) return direction.y >= 0.0f ? 2u : 3u;
+    return direction.z >= 0.0f ? 4u : 5u;
+}
+
+/// Share of `light` that reaches `point` on a surface of geometric normal `normal`.
+float light_visibility(LightData light, vec3 point, vec3 normal, uint filter_mode) {
+    if (light.shadow == no_texture) return 1.0f;
+    uint view = light.shadow & 0x7fffffffu;
+    const bool cube = (light.shadow & 0x80000000u) != 0u;
+    if (cube) view += cube_face(point - light.position);
+    return shadow_in_view(view, point, normal, filter_mode);
+}
+
+#endif

@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Illuminance on planes: the batch's lights with their shadows, and the open sky.
+#include "passes/common/lighting.glsl"
+#include "passes/sensors/sensors_shared.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 12, std430) buffer Sensors { SensorData sensors[]; };
+layout(push_constant) uniform Push { SensorConstants push; };
+
+const uint area_light_samples = 256u;
+
+vec3 illuminance_from(LightData light, vec3 position, vec3 normal) {
+    const uint samples = light_is_delta(light) ? 1u : area_light_samples;
+    vec3 sum = vec3(0.0f);
+    for (uint i = 0u; i < samples; ++i) {
+        const LightSample arriving = light_sample(light, position, hammersley(i, samples));
+        sum += arriving.value * max(dot(arriving.direction, normal), 0.0f);
+    }
+    if (sum == vec3(0.0f)) return sum;
+    return sum * (light_visibility(light, position, normal, shadow_filter_percentage_closer) / float(samples));
+}
+
+void main() {
+    const uint index = gl_GlobalInvocationID.x;
+    if (index >= push.sensor_count) return;
+    const vec3 position = sensors[index].position;
+    const vec3 normal = sensors[index].normal;
+    vec3 sum = vec3(0.0f);
+    for (uint i = 0u; i < push.light_count; ++i)
+        sum += illuminance_from(light_table[active_light_table[push.light_first + i]], position, normal);
+    if (push.sky_enabled != 0u) sum += sky_diffuse(normal) * pi;
+    sensors[index].illuminance = sum;
+}

@@ -1,0 +1,22 @@
+#include "passes/sensors/sensors.h"
+
+#include "passes/sensors/sensors_shared.h"
+
+namespace heliodon::passes {
+
+Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                            const LightingInputs& lighting, const gpu::Image& shadow_maps, const gpu::Buffer& sensors,
+                            std::uint32_t count, const SensorLights& lights) {
+    auto pipeline = pipelines.compute("passes/sensors/sensors.comp");
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    const shading::SensorConstants push{count, lights.first, lights.count, lights.sky ? 1u : 0u};
+    const auto bindings = select_bindings(**pipeline, scene,
+                                          {{9, *lighting.shadow_views},
+                                           {10, gpu::Binding(shadow_maps, lighting.nearest)},
+                                           {11, *lighting.shading_tables},
+                                           {12, sensors}});
+    commands.dispatch_threads(**pipeline, push, bindings, {count, 1, 1});
+    return {};
+}
+
+}  // namespace heliodon::passes

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "passes/shade/shade.h"
+
+namespace heliodon::passes {
+
+struct SensorLights {
+    std::uint32_t first = 0, count = 0;
+    bool sky = false;
+};
+/// Records the illuminance of `count` SensorData planes under one batch of lights, outside any graph: the
+/// shadow maps must be in SHADER_READ_ONLY_OPTIMAL.
+[[nodiscard]] Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                          const LightingInputs& lighting, const gpu::Image& shadow_maps,
+                                          const gpu::Buffer& sensors, std::uint32_t count, const SensorLights& lights);
+
+}  // namespace heliodon::passes

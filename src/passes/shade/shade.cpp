@@ -1,0 +1,32 @@
+#include "passes/shade/shade.h"
+
+namespace heliodon::passes {
+
+Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                     const LightingInputs& lighting, const Visibility& visibility,
+                                     graph::ImageHandle shadow_maps, VkExtent2D extent) {
+    auto pipeline = pipelines.compute("passes/shade/shade.comp");
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    const graph::ImageHandle picture = graph.create_image(
+        {.name = "radiance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {extent.width, extent.height, 1}});
+    graph.add_pass(
+        "shade", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(visibility.ids, graph::Usage::sampled);
+            pass.read(shadow_maps, graph::Usage::sampled);
+            pass.write(picture, graph::Usage::storage_write);
+        },
+        [&scene, &lighting, visibility, shadow_maps, picture, extent, shade = *pipeline](graph::PassContext& context) {
+            const auto bindings = select_bindings(*shade, scene,
+                                                  {{8, *lighting.frame},
+                                                   {9, *lighting.shadow_views},
+                                                   {10, gpu::Binding(context.image(shadow_maps), lighting.nearest)},
+                                                   {11, *lighting.shading_tables},
+                                                   {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
+                                                   {13, context.image(picture)}});
+            context.commands.dispatch_threads(*shade, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
+        });
+    return picture;
+}
+
+}  // namespace heliodon::passes

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "passes/common/scene_inputs.h"
+#include "passes/visibility/visibility.h"
+
+namespace heliodon::passes {
+
+/// What lighting needs besides the scene's tables; the owner keeps it at one address.
+struct LightingInputs {
+    const gpu::Buffer* frame = nullptr;           ///< FrameData
+    const gpu::Buffer* shadow_views = nullptr;    ///< ShadowViewData
+    const gpu::Buffer* shading_tables = nullptr;  ///< shading/tables.h
+    VkSampler nearest = VK_NULL_HANDLE;
+};
+
+/// Lights the visibility buffer in compute: the batch's lights with their shadows, emission, sky. Returns the
+/// picture, RGBA32F radiance in cd/m² (or the AOV that FrameData asks for), alpha = coverage.
+[[nodiscard]] Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                                   const LightingInputs& lighting, const Visibility& visibility,
+                                                   graph::ImageHandle shadow_maps, VkExtent2D extent);
+
+}  // namespace heliodon::passes

@@ -1,0 +1,22 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Depth only, where the surface is there: masked parts by their cutoff, blended parts with a chance
+// equal to their opacity, drawn anew for each sample, so that the mean passes the light they let through.
+#include "passes/common/alpha.glsl"
+
+layout(push_constant) uniform Push { uint view; uint random_seed; };
+layout(location = 0) in vec2 texcoord;
+layout(location = 1) in float vertex_alpha;
+layout(location = 2) flat in uint instance_index;
+
+void main() {
+    const MaterialData material = material_table[instance_table[instance_index].material];
+    const float opacity = surface_opacity(material, texcoord, vertex_alpha);
+    if ((material.flags & material_flag_alpha_blend) != 0u) {
+        const uvec2 texel = uvec2(gl_FragCoord.xy);
+        const uint seed = pcg_hash(texel.x + pcg_hash(texel.y + pcg_hash(instance_index + pcg_hash(random_seed + view))));
+        if (unit_interval(seed) >= opacity) discard;
+    } else if (opacity < material.alpha_cutoff) {
+        discard;
+    }
+}

@@ -1,0 +1,324 @@
+#include "realtime/frame_renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <map>
+
+#include "heliodon_passes_shaders.h"
+#include "passes/accumulate/accumulate.h"
+#include "passes/blend/blend.h"
+#include "passes/cull/cull.h"
+#include "passes/tonemap/tonemap.h"
+#include "passes/visibility/visibility.h"
+#include "realtime/camera_frame.h"
+#include "shading/tables.h"
+
+namespace heliodon::realtime {
+namespace {
+
+// Shadow maps resident at once: 32 layers of 2048². Lights beyond that are lit in further batches.
+constexpr std::uint64_t shadow_budget_bytes = 512ull << 20;
+constexpr std::uint32_t smallest_shadow_layers = 6;  // one cube
+constexpr std::size_t frames_in_flight = 2;
+constexpr std::uint32_t fragments_per_pixel = 4;  // room for blended surfaces to begin with
+
+std::uint32_t shadow_layer_budget(const gpu::Device& device, int size) {
+    const std::uint64_t layer_bytes = std::uint64_t(size) * size * 4;
+    const auto layers = static_cast<std::uint32_t>(shadow_budget_bytes / layer_bytes);
+    return std::clamp(layers, smallest_shadow_layers, device.limits().maxImageArrayLayers);
+}
+
+}  // namespace
+
+FrameRenderer::FrameRenderer(gpu::Device& device, const std::string& shader_directory)
+    : device_(device),
+      pipelines_(device, gpu::ShaderLibrary(passes::embedded_shaders(), shader_directory)),
+      gpu_scene_(device),
+      shadow_executor_(std::make_unique<graph::Executor>(device)),
+      frame_executor_(std::make_unique<graph::Executor>(device)) {}
+
+FrameRenderer::~FrameRenderer() {
+    // Nothing is left to report an error to; what failed has been reported by the call that submitted it.
+    (void)device_.wait_idle();
+    if (sky_specular_slot_) device_.textures().remove(*sky_specular_slot_);
+    if (sky_irradiance_slot_) device_.textures().remove(*sky_irradiance_slot_);
+}
+
+Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(gpu::Device& device, const std::string& shader_directory) {
+    std::unique_ptr<FrameRenderer> renderer(new FrameRenderer(device, shader_directory));
+    if (auto opened = renderer->open(); !opened) return tl::unexpected(opened.error());
+    return renderer;
+}
+
+Result<void> FrameRenderer::open() {
+    const auto make = [&](gpu::Buffer& buffer, std::string name, VkDeviceSize size) -> Result<void> {
+        auto made = gpu::Buffer::create(device_, {std::move(name), size});
+        if (!made) return tl::unexpected(made.error());
+        buffer = std::move(*made);
+        return {};
+    };
+    if (auto done = make(frame_buffer_, "frame", sizeof(shading::FrameData)); !done) return done;
+    if (auto done = make(camera_view_, "camera view", sizeof(shading::ViewData)); !done) return done;
+    const auto tables = shading::shading_tables();
+    if (auto done = make(shading_tables_, "shading tables", tables.size_bytes()); !done) return done;
+    if (auto done = device_.upload(shading_tables_, tables); !done) return done;
+    auto timestamps = gpu::Timestamps::create(device_);
+    if (!timestamps) return tl::unexpected(timestamps.error());
+    timestamps_ = std::move(*timestamps);
+    auto nearest = device_.sampler(gpu::SamplerDescription::nearest_clamp());
+    if (!nearest) return tl::unexpected(nearest.error());
+    lighting_ = {&frame_buffer_, &shadow_views_, &shading_tables_, *nearest};
+    shadow_inputs_.views = &shadow_cull_views_;
+    return {};
+}
+
+Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
+    auto update = gpu_scene_.update(scene);
+    if (!update) return update;
+    const int size = std::clamp(scene.render_settings().shadow_map_size, 1, static_cast<int>(device_.limits().maxImageDimension2D));
+    if (size != shadow_map_size_) planned_lights_ = ~0ull;
+    shadow_map_size_ = size;
+    if (planned_lights_ != gpu_scene_.light_revision())
+        if (auto done = plan_lights(); !done) return tl::unexpected(done.error());
+    if (prefiltered_sky_ != gpu_scene_.sky_revision())
+        if (auto done = prefilter_sky(); !done) return tl::unexpected(done.error());
+    return update;
+}
+
+Result<void> FrameRenderer::plan_lights() {
+    plan_ = plan_shadows(gpu_scene_.flat().lights(), shadow_layer_budget(device_, shadow_map_size_));
+    planned_lights_ = gpu_scene_.light_revision();
+    resident_shadows_ = {};
+    return gpu_scene_.set_light_shadows(plan_.shadow_of_light, plan_.active_lights);
+}
+
+Result<void> FrameRenderer::resize(int width, int height, bool display) {
+    const int limit = static_cast<int>(device_.limits().maxImageDimension2D);
+    if (width < 1 || height < 1 || width > limit || height > limit)
+        return fail("", fmt::format("a picture of {}x{}: each side must be 1 to {}", width, height, limit));
+    wanted_.width = width;
+    wanted_.height = height;
+    wanted_.display = display;
+    return {};
+}
+
+Result<void> FrameRenderer::prepare() {
+    std::uint32_t layers = 1;
+    for (const ShadowBatch& batch : plan_.batches) layers = std::max(layers, batch.view_count);
+    wanted_.blended = gpu_scene_.has_blended();
+    wanted_.instance_capacity = std::max(std::bit_ceil(gpu_scene_.instance_count()), key_.instance_capacity);
+    wanted_.instance_capacity = std::max(wanted_.instance_capacity, 16u);
+    // Layers and fragments are kept once made: lights that blink cost no reallocation.
+    wanted_.shadow_size = plan_.views.empty() ? 1 : shadow_map_size_;
+    wanted_.shadow_layers = wanted_.shadow_size == key_.shadow_size ? std::max(layers, key_.shadow_layers) : layers;
+    if (wanted_.blended)
+        wanted_.fragment_capacity = std::max(wanted_.fragment_capacity,
+                                             static_cast<std::uint32_t>(wanted_.width) * wanted_.height * fragments_per_pixel);
+    inputs_.tables.clear();
+    gpu_scene_.append_bindings(inputs_.tables);
+    inputs_.index_buffer = &gpu_scene_.index_buffer();
+    inputs_.instance_count = gpu_scene_.instance_count();
+    inputs_.has_tested = gpu_scene_.has_tested();
+    inputs_.has_blended = gpu_scene_.has_blended();
+    if (wanted_ == key_) return {};
+
+    if (auto done = device_.wait_idle(); !done) return done;
+    if (auto done = make_images(); !done) return done;
+    if (auto done = build_shadow_graph(); !done) return done;
+    if (auto done = build_frame_graph(); !done) return done;
+    key_ = wanted_;
+    return {};
+}
+
+Result<void> FrameRenderer::make_images() {
+    const auto make = [&](gpu::Image& image, const gpu::ImageDescription& description) -> Result<void> {
+        auto made = gpu::Image::create(device_, description);
+        if (!made) return tl::unexpected(made.error());
+        image = std::move(*made);
+        return {};
+    };
+    const VkExtent3D extent{static_cast<std::uint32_t>(wanted_.width), static_cast<std::uint32_t>(wanted_.height), 1};
+    if (wanted_.width != key_.width || wanted_.height != key_.height || wanted_.display != key_.display) {
+        if (auto done = make(sum_, {.name = "accumulated", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = extent,
+                                    .usage = VK_IMAGE_USAGE_STORAGE_BIT}); !done)
+            return done;
+        display_ = {};
+        if (wanted_.display)
+            if (auto done = make(display_, {.name = "display", .format = VK_FORMAT_R8G8B8A8_UNORM, .extent = extent,
+                                            .usage = VK_IMAGE_USAGE_STORAGE_BIT}); !done)
+                return done;
+    }
+    if (wanted_.shadow_layers != key_.shadow_layers || wanted_.shadow_size != key_.shadow_size) {
+        const auto size = static_cast<std::uint32_t>(wanted_.shadow_size);
+        if (auto done = make(shadow_maps_, {.name = "shadow maps", .format = passes::depth_format, .extent = {size, size, 1},
+                                            .layers = wanted_.shadow_layers,
+                                            .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}); !done)
+            return done;
+        auto cull_views = gpu::Buffer::create(device_, {"shadow cull views", wanted_.shadow_layers * sizeof(shading::ViewData)});
+        if (!cull_views) return tl::unexpected(cull_views.error());
+        shadow_cull_views_ = std::move(*cull_views);
+        auto views = gpu::Buffer::create(device_, {"shadow views", wanted_.shadow_layers * sizeof(shading::ShadowViewData)});
+        if (!views) return tl::unexpected(views.error());
+        shadow_views_ = std::move(*views);
+        resident_shadows_ = {};
+    }
+    if (wanted_.fragment_capacity != key_.fragment_capacity) {
+        const VkDeviceSize bytes = passes::blend_buffer_bytes(wanted_.fragment_capacity);
+        if (bytes > device_.limits().maxStorageBufferRange)
+            return fail("", fmt::format("blended surfaces overlap {} times in this picture, more than the device's largest "
+                                        "storage buffer holds", wanted_.fragment_capacity));
+        auto fragments = gpu::Buffer::create(device_, {"blend fragments", bytes});
+        if (!fragments) return tl::unexpected(fragments.error());
+        fragments_ = std::move(*fragments);
+        const std::uint32_t zeros[4] = {};
+        if (auto done = device_.upload(fragments_, std::span<const std::uint32_t>(zeros)); !done) return done;
+    }
+    return {};
+}
+
+Result<void> FrameRenderer::build_shadow_graph() {
+    graph::Graph graph;
+    const graph::ImageHandle maps = graph.import_image(shadow_maps_.description());
+    auto lists = passes::add_cull(graph, pipelines_, inputs_, {wanted_.shadow_layers, wanted_.instance_capacity, true},
+                                  shadow_cull_views_, shadow_inputs_.view_count);
+    if (!lists) return tl::unexpected(lists.error());
+    if (auto done = passes::add_shadow(graph, pipelines_, inputs_, shadow_inputs_, *lists, maps); !done) return done;
+    graph.export_image(maps);
+    if (auto done = shadow_executor_->set_graph(graph); !done) return done;
+    shadow_executor_->bind(maps, shadow_maps_);
+    return {};
+}
+
+Result<void> FrameRenderer::build_frame_graph() {
+    const VkExtent2D extent{static_cast<std::uint32_t>(wanted_.width), static_cast<std::uint32_t>(wanted_.height)};
+    graph::Graph graph;
+    const graph::ImageHandle maps = graph.import_image(shadow_maps_.description());
+    const graph::ImageHandle sum = graph.import_image(sum_.description());
+    graph.export_image(sum);
+    auto lists = passes::add_cull(graph, pipelines_, inputs_, {1, wanted_.instance_capacity, false}, camera_view_, camera_view_count_);
+    if (!lists) return tl::unexpected(lists.error());
+    auto visibility = passes::add_visibility(graph, pipelines_, inputs_, camera_view_, *lists, extent);
+    if (!visibility) return tl::unexpected(visibility.error());
+    auto picture = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, extent);
+    if (!picture) return tl::unexpected(picture.error());
+    graph::BufferHandle fragments;
+    if (wanted_.blended) {
+        fragments = graph.import_buffer(fragments_.description());
+        if (auto done = passes::add_blend(graph, pipelines_, inputs_, lighting_, camera_view_, *lists, *visibility, maps,
+                                          fragments, *picture, extent); !done)
+            return done;
+    }
+    if (auto done = passes::add_accumulate(graph, pipelines_, *picture, sum, replace_sum_, extent); !done) return done;
+    graph::ImageHandle display;
+    if (wanted_.display) {
+        display = graph.import_image(display_.description());
+        graph.export_image(display);
+        if (auto done = passes::add_tonemap(graph, pipelines_, sum, display, display_scale_, extent); !done) return done;
+    }
+    if (auto done = frame_executor_->set_graph(graph); !done) return done;
+    frame_executor_->bind(maps, shadow_maps_);
+    frame_executor_->bind(sum, sum_);
+    if (fragments) frame_executor_->bind(fragments, fragments_);
+    if (display) frame_executor_->bind(display, display_);
+    return {};
+}
+
+Result<void> FrameRenderer::record_shadows(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
+                                           gpu::Timestamps* timestamps) {
+    const ShadowKey wanted{gpu_scene_.revision(), batch, sample.shadow_index, sample.jitter_shadows};
+    if (wanted == resident_shadows_ && !sample.force_shadows) return {};
+    glm::vec2 jitter(0);
+    if (sample.jitter_shadows) jitter = sample_position(sample.shadow_index, 0, sample.seed) - 0.5f;
+    const auto views = shadow_views(plan_, plan_.batches[batch], gpu_scene_.flat().lights(), gpu_scene_.bounds(),
+                                    shadow_map_size_, jitter);
+    std::vector<shading::ViewData> cull_views;
+    for (const shading::ShadowViewData& view : views) cull_views.push_back({view.world_to_clip});
+    shadow_inputs_.view_count = static_cast<std::uint32_t>(views.size());
+    shadow_inputs_.random_seed = sample.shadow_index + sample.seed;
+    if (!views.empty()) {
+        if (auto done = device_.upload<shading::ShadowViewData>(shadow_views_, views); !done) return done;
+        if (auto done = device_.upload<shading::ViewData>(shadow_cull_views_, cull_views); !done) return done;
+    }
+    // Also without views: the graph brings the image into the layout that shading expects.
+    if (auto done = shadow_executor_->execute(commands, timestamps); !done) return done;
+    resident_shadows_ = wanted;
+    return {};
+}
+
+Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample& sample, std::size_t batch, PassTimes* times) {
+    auto commands = device_.begin_commands("frame");
+    if (!commands) return tl::unexpected(commands.error());
+    timestamps_.begin_frame();
+    if (auto done = record_shadows(*commands, sample, batch, &timestamps_); !done) return done;
+
+    shading::FrameData frame = camera_frame(camera, gpu_scene_.bounds(), wanted_.width, wanted_.height, sample.jitter);
+    frame.sample_index = sample.index;
+    frame.texture_gradient_scale = sample.texture_gradient_scale;
+    frame.sky_enabled = sample.environment ? 1 : 0;
+    frame.instance_count = inputs_.instance_count;
+    frame.light_first = plan_.batches[batch].first_light;
+    frame.light_count = plan_.batches[batch].light_count;
+    frame.batch = static_cast<std::uint32_t>(batch);
+    frame.aov = sample.aov;
+    frame.shadow_filter = sample.jitter_shadows ? shading::shadow_filter_nearest : shading::shadow_filter_percentage_closer;
+    frame.fragment_capacity = wanted_.fragment_capacity;
+    frame.random_seed = sample.index * 9781u + sample.seed;
+    const shading::ViewData view{frame.world_to_clip};
+    if (auto done = device_.upload(frame_buffer_, std::span<const shading::FrameData>(&frame, 1)); !done) return done;
+    if (auto done = device_.upload(camera_view_, std::span<const shading::ViewData>(&view, 1)); !done) return done;
+    replace_sum_ = sample.replace && batch == 0;
+    display_scale_ = sample.display_scale;
+    if (auto done = frame_executor_->execute(*commands, &timestamps_); !done) return done;
+    auto submitted = device_.submit(std::move(*commands));
+    if (!submitted) return tl::unexpected(submitted.error());
+    in_flight_.push_back(*submitted);
+    if (in_flight_.size() > frames_in_flight) {
+        if (auto done = device_.wait(in_flight_.front()); !done) return done;
+        in_flight_.pop_front();
+    }
+    if (!times) return {};
+    auto frame_times = timestamps_.wait();
+    if (!frame_times) return tl::unexpected(frame_times.error());
+    for (const gpu::ScopeTime& scope : frame_times->scopes) {
+        const auto same = std::find_if(times->passes.begin(), times->passes.end(),
+                                       [&](const PassTime& pass) { return pass.name == scope.name; });
+        if (same != times->passes.end()) same->gpu_ms += scope.milliseconds;
+        else times->passes.push_back({scope.name, scope.milliseconds});
+    }
+    times->total_ms += frame_times->total_milliseconds;
+    return {};
+}
+
+Result<void> FrameRenderer::render(const Camera& camera, const FrameSample& sample, PassTimes* times) {
+    if (auto done = prepare(); !done) return done;
+    inputs_.draw_calls = 0;
+    for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch)
+        if (auto done = render_batch(camera, sample, batch, times); !done) return done;
+    draw_calls_ = inputs_.draw_calls;
+    return {};
+}
+
+PassTimes FrameRenderer::latest_times() {
+    PassTimes times;
+    const gpu::FrameTimes& latest = timestamps_.latest();
+    for (const gpu::ScopeTime& scope : latest.scopes) times.passes.push_back({scope.name, scope.milliseconds});
+    times.total_ms = latest.total_milliseconds;
+    return times;
+}
+
+Result<std::vector<float>> FrameRenderer::read_sum() { return device_.read_back_as<float>(sum_); }
+
+Result<bool> FrameRenderer::grow_fragments() {
+    if (!key_.blended) return false;
+    auto header = device_.read_back(fragments_, 0, 16);
+    if (!header) return tl::unexpected(header.error());
+    std::uint32_t demand[4];
+    std::copy_n(header->data(), sizeof(demand), reinterpret_cast<std::byte*>(demand));
+    if (demand[1] <= key_.fragment_capacity) return false;
+    wanted_.fragment_capacity = demand[1] + demand[1] / 4;
+    return true;
+}
+
+}  // namespace heliodon::realtime

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/device.h"
+#include "gpu/pipeline.h"
+#include "gpu/timestamps.h"
+#include "graph/executor.h"
+#include "passes/shade/shade.h"
+#include "passes/shadow/shadow.h"
+#include "realtime/gpu_scene.h"
+#include "realtime/renderer.h"
+#include "realtime/shadow_plan.h"
+
+namespace heliodon::realtime {
+
+/// One jittered sample of a picture.
+struct FrameSample {
+    std::uint32_t index = 0;         ///< in its picture
+    std::uint32_t count = 1;         ///< samples of the picture; 0: live, without end
+    glm::vec2 jitter{0};             ///< pixels, −½ … ½
+    std::uint32_t shadow_index = 0;  ///< shadow maps are rendered anew where this changes
+    bool jitter_shadows = false;     ///< move the shadow maps' texel grid by `shadow_index`, and look up single texels
+    bool force_shadows = false;      ///< render them although nothing changed (for timing)
+    bool environment = true;
+    std::uint32_t aov = shading::frame_aov_none;
+    std::uint32_t seed = 0;
+    bool replace = true;             ///< the accumulated sum starts anew
+    float display_scale = 1.0f;      ///< live: exposure / samples in the sum
+    float texture_gradient_scale = 1.0f;
+};
+
+struct PassTimes {
+    std::vector<PassTime> passes;
+    double total_ms = 0;
+};
+
+/// Renders samples of a picture on one device: owns the GPU scene, the shadow maps, the frame graphs and the
+/// accumulated sum. What is on the GPU follows from the last update() and resize().
+class FrameRenderer {
+public:
+    [[nodiscard]] static Result<std::unique_ptr<FrameRenderer>> create(gpu::Device& device, const std::string& shader_directory);
+    ~FrameRenderer();
+    FrameRenderer(const FrameRenderer&) = delete;
+    FrameRenderer& operator=(const FrameRenderer&) = delete;
+
+    [[nodiscard]] Result<RealtimeUpdate> update(const Scene& scene);
+    /// Pictures of this size; `display`: also a tone-mapped RGBA8 image.
+    [[nodiscard]] Result<void> resize(int width, int height, bool display);
+    /// Renders and submits one sample of every batch of lights. `times`, if wanted, waits for the GPU.
+    [[nodiscard]] Result<void> render(const Camera& camera, const FrameSample& sample, PassTimes* times = nullptr);
+    /// Times of a sample rendered a little earlier; never waits.
+    [[nodiscard]] PassTimes latest_times();
+    /// The accumulated sum as RGBA floats; waits.
+    [[nodiscard]] Result<std::vector<float>> read_sum();
+    /// Illuminance in lux (RGB) on planes: light from the lights with shadows and from the open sky; waits.
+    struct Receiver {
+        glm::vec3 position, normal;
+    };
+    [[nodiscard]] Result<std::vector<glm::vec3>> illuminances(const std::vector<Receiver>& receivers, bool environment);
+    /// Whether blended fragments found no room since the last call; if so, makes room, and the picture must
+    /// be rendered again. Waits.
+    [[nodiscard]] Result<bool> grow_fragments();
+
+    [[nodiscard]] const gpu::Image& display() const { return display_; }
+    [[nodiscard]] const GpuScene& scene() const { return gpu_scene_; }
+    [[nodiscard]] gpu::Device& device() const { return device_; }
+    [[nodiscard]] gpu::Pipelines& pipelines() { return pipelines_; }
+    /// Indirect draws that the last render() recorded.
+    [[nodiscard]] std::uint32_t draw_calls() const { return draw_calls_; }
+    [[nodiscard]] std::size_t light_batches() const { return plan_.batches.size(); }
+
+private:
+    /// What the graphs depend on; they are rebuilt when it changes.
+    struct GraphKey {
+        int width = 0, height = 0;
+        bool display = false, blended = false;
+        std::uint32_t instance_capacity = 0, shadow_layers = 0;
+        int shadow_size = 0;
+        std::uint32_t fragment_capacity = 0;
+        bool operator==(const GraphKey&) const = default;
+    };
+    /// Which shadow maps are resident.
+    struct ShadowKey {
+        std::uint64_t scene_revision = ~0ull;
+        std::size_t batch = 0;
+        std::uint32_t index = 0;
+        bool jittered = false;
+        bool operator==(const ShadowKey&) const = default;
+    };
+
+    FrameRenderer(gpu::Device& device, const std::string& shader_directory);
+    [[nodiscard]] Result<void> open();
+    [[nodiscard]] Result<void> plan_lights();
+    [[nodiscard]] Result<void> prepare();
+    [[nodiscard]] Result<void> make_images();
+    [[nodiscard]] Result<void> build_shadow_graph();
+    [[nodiscard]] Result<void> build_frame_graph();
+    [[nodiscard]] Result<void> record_shadows(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
+                                              gpu::Timestamps* timestamps);
+    [[nodiscard]] Result<void> render_batch(const Camera& camera, const FrameSample& sample, std::size_t batch, PassTimes* times);
+    [[nodiscard]] Result<void> prefilter_sky();
+
+    gpu::Device& device_;
+    gpu::Pipelines pipelines_;
+    GpuScene gpu_scene_;
+    std::unique_ptr<graph::Executor> shadow_executor_, frame_executor_;
+    gpu::Timestamps timestamps_;
+
+    ShadowPlan plan_;
+    std::uint64_t planned_lights_ = ~0ull, prefiltered_sky_ = ~0ull;
+    ShadowKey resident_shadows_;
+    int shadow_map_size_ = 2048;
+
+    GraphKey key_, wanted_;
+    passes::SceneInputs inputs_;
+    passes::LightingInputs lighting_;
+    passes::ShadowInputs shadow_inputs_;
+    std::uint32_t camera_view_count_ = 1;
+    bool replace_sum_ = true;
+    float display_scale_ = 1.0f;
+    std::uint32_t draw_calls_ = 0;
+
+    gpu::Buffer frame_buffer_, camera_view_, shadow_cull_views_, shadow_views_, shading_tables_, fragments_;
+    gpu::Image shadow_maps_, sum_, display_, sky_specular_, sky_irradiance_;
+    std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_;
+    std::deque<gpu::TimelineValue> in_flight_;
+};
+
+}  // namespace heliodon::realtime

@@ -1,0 +1,70 @@
+// The parts of FrameRenderer that run outside its frame graphs: the sky's prefiltered maps and sensors.
+#include "gpu/bindless_textures.h"
+#include "passes/environment/environment.h"
+#include "passes/sensors/sensors.h"
+#include "passes/sensors/sensors_shared.h"
+#include "realtime/frame_renderer.h"
+
+namespace heliodon::realtime {
+
+Result<void> FrameRenderer::prefilter_sky() {
+    prefiltered_sky_ = gpu_scene_.sky_revision();
+    GpuScene::SkyMaps maps;
+    if (const auto source = gpu_scene_.sky_slot()) {
+        const Texture& texture = *gpu_scene_.flat().textures()[gpu_scene_.flat().sky().texture_index];
+        auto made = passes::prefilter_environment(device_, pipelines_, *source, static_cast<std::uint32_t>(texture.width));
+        if (!made) return tl::unexpected(made.error());
+        sky_specular_ = std::move(made->specular);
+        sky_irradiance_ = std::move(made->irradiance);
+        gpu::SamplerDescription sampler;
+        sampler.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        auto linear = device_.sampler(sampler);
+        if (!linear) return tl::unexpected(linear.error());
+        const auto place = [&](std::optional<std::uint32_t>& slot, const gpu::Image& image) -> Result<void> {
+            if (slot) return device_.textures().replace(*slot, image, *linear);
+            auto added = device_.textures().add(image, *linear);
+            if (!added) return tl::unexpected(added.error());
+            slot = *added;
+            return {};
+        };
+        if (auto done = place(sky_specular_slot_, sky_specular_); !done) return done;
+        if (auto done = place(sky_irradiance_slot_, sky_irradiance_); !done) return done;
+        maps = {*sky_specular_slot_, *sky_irradiance_slot_, sky_specular_.mips()};
+    }
+    return gpu_scene_.set_sky_maps(maps);
+}
+
+Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Receiver>& receivers, bool environment) {
+    std::vector<glm::vec3> result(receivers.size(), glm::vec3(0));
+    if (receivers.empty()) return result;
+    if (wanted_.width == 0)
+        if (auto done = resize(1, 1, false); !done) return tl::unexpected(done.error());
+    if (auto done = prepare(); !done) return tl::unexpected(done.error());
+    std::vector<shading::SensorData> sensors;
+    for (const Receiver& receiver : receivers) sensors.push_back({receiver.position, 0, receiver.normal, 0, glm::vec3(0), 0});
+    auto buffer = gpu::Buffer::create(device_, {"sensors", sensors.size() * sizeof(shading::SensorData)});
+    if (!buffer) return tl::unexpected(buffer.error());
+    if (auto done = device_.upload<shading::SensorData>(*buffer, sensors); !done) return tl::unexpected(done.error());
+
+    for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch) {
+        const passes::SensorLights lights{plan_.batches[batch].first_light, plan_.batches[batch].light_count,
+                                          environment && batch == 0};
+        Result<void> status;
+        auto done = device_.run("sensors", [&](gpu::Commands& commands) {
+            status = record_shadows(commands, FrameSample{}, batch, nullptr);
+            if (!status) return;
+            commands.transition(shadow_maps_, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+            status = passes::record_sensors(commands, pipelines_, inputs_, lighting_, shadow_maps_, *buffer,
+                                            static_cast<std::uint32_t>(sensors.size()), lights);
+        });
+        if (!status) return tl::unexpected(status.error());
+        if (!done) return tl::unexpected(done.error());
+        auto read = device_.read_back_as<shading::SensorData>(*buffer);
+        if (!read) return tl::unexpected(read.error());
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] += (*read)[i].illuminance;
+    }
+    return result;
+}
+
+}  // namespace heliodon::realtime

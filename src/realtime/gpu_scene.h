@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "convert/flat_scene.h"
+#include "core/result.h"
+#include "gpu/commands.h"
+#include "gpu/device.h"
+#include "passes/common/frame_shared.h"
+#include "realtime/range_allocator.h"
+#include "realtime/renderer.h"
+#include "scene/scene.h"
+
+namespace heliodon::realtime {
+
+/// A storage buffer that grows, keeping its contents.
+class GrowingBuffer {
+public:
+    GrowingBuffer(std::string name, VkBufferUsageFlags usage) : name_(std::move(name)), usage_(usage) {}
+    /// Room for `bytes`; `used` bytes from the start survive a reallocation.
+    [[nodiscard]] Result<void> reserve(gpu::Device& device, std::uint64_t bytes, std::uint64_t used);
+    [[nodiscard]] const gpu::Buffer& buffer() const { return buffer_; }
+    [[nodiscard]] std::uint64_t size() const { return buffer_.size(); }
+
+private:
+    std::string name_;
+    VkBufferUsageFlags usage_;
+    gpu::Buffer buffer_;
+};
+
+/// The GPU's copy of a scene: mega vertex and index buffers, tables, bindless textures. It follows the
+/// scene's journal; only what changed is uploaded.
+class GpuScene {
+public:
+    explicit GpuScene(gpu::Device& device);
+    ~GpuScene();
+    GpuScene(const GpuScene&) = delete;
+    GpuScene& operator=(const GpuScene&) = delete;
+
+    [[nodiscard]] Result<RealtimeUpdate> update(const Scene& scene);
+    /// Bindings 0 to 7 of passes/common/scene_tables.glsl.
+    void append_bindings(std::vector<gpu::Binding>& bindings) const;
+    /// Writes where a light's shadow views begin (LightData::shadow), and the list of lights that shine.
+    [[nodiscard]] Result<void> set_light_shadows(const std::vector<std::uint32_t>& shadow_of_light,
+                                                 const std::vector<std::uint32_t>& active_lights);
+    /// Bindless slots of the environment's maps, for shading.
+    struct SkyMaps {
+        std::uint32_t specular = shading::no_texture, irradiance = shading::no_texture;
+        std::uint32_t specular_levels = 1;
+    };
+    [[nodiscard]] Result<void> set_sky_maps(const SkyMaps& maps);
+
+    [[nodiscard]] const convert::FlatScene& flat() const { return flat_; }
+    [[nodiscard]] const gpu::Buffer& index_buffer() const { return indices_.buffer(); }
+    [[nodiscard]] std::uint32_t instance_count() const { return static_cast<std::uint32_t>(flat_.instances().size()); }
+    /// Whether any visible instance needs the alpha-tested or the blended draw list.
+    [[nodiscard]] bool has_tested() const { return has_tested_; }
+    [[nodiscard]] bool has_blended() const { return has_blended_; }
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    /// Goes up whenever an update changed anything; accumulated pictures older than it are stale.
+    [[nodiscard]] std::uint64_t revision() const { return revision_; }
+    /// Goes up when the sky or its picture changed.
+    [[nodiscard]] std::uint64_t sky_revision() const { return sky_revision_; }
+    [[nodiscard]] std::uint64_t light_revision() const { return light_revision_; }
+    [[nodiscard]] std::optional<std::uint32_t> sky_slot() const;
+
+private:
+    struct Range {
+        std::uint64_t start = 0, size = 0;
+    };
+    struct Allocation {
+        Range attributes, indices;  // floats, indices
+    };
+    struct LoadedTexture {
+        gpu::Image image;
+        std::uint32_t slot = shading::no_texture;
+    };
+
+    [[nodiscard]] Result<void> upload_geometries(const std::vector<std::uint32_t>& changed, RealtimeUpdate& update);
+    [[nodiscard]] Result<void> upload_geometry(std::uint32_t index, RealtimeUpdate& update);
+    [[nodiscard]] Result<void> reserve_for(const std::vector<std::uint32_t>& changed);
+    [[nodiscard]] Result<void> grow_ranges(GrowingBuffer& buffer, RangeAllocator& ranges, std::uint64_t count);
+    [[nodiscard]] Result<std::uint64_t> allocate(GrowingBuffer& buffer, RangeAllocator& ranges, std::uint64_t size);
+    void release_geometry(std::uint32_t index);
+    [[nodiscard]] Result<bool> upload_textures(const std::vector<std::uint32_t>& changed, RealtimeUpdate& update);
+    [[nodiscard]] Result<void> upload_texture(std::uint32_t index, RealtimeUpdate& update);
+    [[nodiscard]] Result<void> upload_materials(const std::vector<std::uint32_t>& changed, RealtimeUpdate& update);
+    [[nodiscard]] Result<void> upload_sky();
+    [[nodiscard]] std::uint32_t slot_of(std::uint32_t texture) const;
+    void classify();
+
+    gpu::Device& device_;
+    convert::FlatScene flat_;
+    GrowingBuffer vertices_, indices_, geometries_, instances_, materials_, lights_, active_lights_, sky_;
+    RangeAllocator vertex_ranges_, index_ranges_;
+    std::vector<Allocation> allocations_;
+    std::vector<shading::GeometryData> geometry_table_;
+    std::vector<std::optional<LoadedTexture>> textures_;
+    std::vector<std::uint32_t> light_shadows_;
+    SkyMaps sky_maps_;
+    Bounds bounds_;
+    bool has_tested_ = false, has_blended_ = false;
+    std::uint64_t revision_ = 0, sky_revision_ = 0, light_revision_ = 0;
+};
+
+}  // namespace heliodon::realtime

@@ -1,0 +1,102 @@
+#include "realtime/live.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "realtime/camera_frame.h"
+#include "realtime/frame_renderer.h"
+
+namespace heliodon::realtime {
+namespace {
+
+// A picture at rest is refined this long, then only shown.
+constexpr int most_samples = 1024;
+// The first samples share one filtered shadow map, so that motion costs one; then its grid moves.
+constexpr int filtered_samples = 8;
+constexpr int samples_per_shadow_grid = 4;
+// How often a scene with blended surfaces is asked whether all of them found room (it waits for the GPU).
+constexpr int frames_between_overflow_checks = 16;
+
+}  // namespace
+
+struct LiveRenderer::State {
+    std::unique_ptr<FrameRenderer> frames;
+    shading::FrameData view{};  // of the accumulated picture, without jitter
+    std::uint64_t revision = ~0ull;
+    bool environment = true;
+    int samples = 0;
+    int frame_number = 0;
+};
+
+LiveRenderer::LiveRenderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+LiveRenderer::~LiveRenderer() = default;
+LiveRenderer::LiveRenderer(LiveRenderer&&) noexcept = default;
+LiveRenderer& LiveRenderer::operator=(LiveRenderer&&) noexcept = default;
+
+Result<LiveRenderer> LiveRenderer::create(gpu::Device& device, const std::string& shader_directory) try {
+    auto state = std::make_unique<State>();
+    auto frames = FrameRenderer::create(device, shader_directory);
+    if (!frames) return tl::unexpected(frames.error());
+    state->frames = std::move(*frames);
+    return LiveRenderer(std::move(state));
+} catch (const std::exception& exception) {
+    return fail("", fmt::format("the live renderer could not start: {}", exception.what()));
+}
+
+Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camera& camera, int width, int height,
+                                                 bool environment) try {
+    State& state = *state_;
+    FrameRenderer& frames = *state.frames;
+    if (auto updated = frames.update(scene); !updated) return tl::unexpected(updated.error());
+    if (auto done = frames.resize(width, height, true); !done) return tl::unexpected(done.error());
+    const shading::FrameData view = camera_frame(camera, frames.scene().bounds(), width, height, glm::vec2(0));
+    const bool same = frames.scene().revision() == state.revision && environment == state.environment &&
+                      std::memcmp(&view, &state.view, sizeof(view)) == 0;
+    if (!same) state.samples = 0;
+    state.view = view;
+    state.revision = frames.scene().revision();
+    state.environment = environment;
+
+    if (state.samples < most_samples) {
+        FrameSample sample;
+        sample.index = static_cast<std::uint32_t>(state.samples);
+        sample.count = 0;
+        sample.jitter = sample_position(sample.index, 0, 0) - 0.5f;
+        sample.jitter_shadows = state.samples >= filtered_samples;
+        sample.shadow_index = sample.jitter_shadows ? sample.index / samples_per_shadow_grid : 0;
+        sample.environment = environment;
+        sample.replace = state.samples == 0;
+        sample.display_scale = view.exposure / static_cast<float>(state.samples + 1);
+        sample.texture_gradient_scale = 1.0f / std::sqrt(static_cast<float>(std::min(state.samples + 1, 64)));
+        if (auto done = frames.render(camera, sample); !done) return tl::unexpected(done.error());
+        ++state.samples;
+        if (++state.frame_number % frames_between_overflow_checks == 0) {
+            auto grown = frames.grow_fragments();
+            if (!grown) return tl::unexpected(grown.error());
+            if (*grown) state.samples = 0;
+        }
+    }
+    Frame frame;
+    frame.image = &frames.display();
+    frame.samples = state.samples;
+    PassTimes times = frames.latest_times();
+    frame.passes = std::move(times.passes);
+    frame.gpu_ms_total = times.total_ms;
+    return frame;
+} catch (const std::exception& exception) {
+    return fail("", fmt::format("rendering live: {}", exception.what()));
+}
+
+Result<void> LiveRenderer::reload_shaders() try {
+    auto reload = state_->frames->pipelines().reload();
+    state_->samples = 0;
+    if (!reload.errors.empty()) return tl::unexpected(reload.errors.front());
+    return {};
+} catch (const std::exception& exception) {
+    return fail("", fmt::format("reloading shaders: {}", exception.what()));
+}
+
+}  // namespace heliodon::realtime

@@ -1,0 +1,301 @@
+#include "realtime/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "realtime/camera_frame.h"
+#include "realtime/frame_renderer.h"
+
+namespace heliodon {
+namespace {
+
+using realtime::FrameRenderer;
+using realtime::FrameSample;
+using realtime::PassTimes;
+
+// Shadow maps with a moved texel grid that a still picture averages over.
+constexpr int shadow_grids = 16;
+constexpr int warm_up_frames = 3;
+constexpr int most_overflow_repeats = 4;
+
+struct AovKind {
+    const char* name;
+    std::uint32_t code;
+    int channels;
+    bool single_sample;  // a mean over a pixel would mix surfaces: taken at its centre
+};
+constexpr std::array<AovKind, 6> aov_kinds{{{"albedo", shading::frame_aov_albedo, 3, false},
+                                            {"normal", shading::frame_aov_normal, 3, false},
+                                            {"depth", shading::frame_aov_depth, 1, true},
+                                            {"position", shading::frame_aov_position, 3, true},
+                                            {"direct", shading::frame_aov_direct, 3, false},
+                                            {"indirect", shading::frame_aov_indirect, 3, false}}};
+
+Result<AovKind> find_aov(const std::string& name) {
+    const auto found = std::find_if(aov_kinds.begin(), aov_kinds.end(), [&](const AovKind& kind) { return name == kind.name; });
+    if (found == aov_kinds.end())
+        return fail("aovs", fmt::format("expected albedo, normal, depth, position, direct or indirect, found \"{}\"", name));
+    return *found;
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    return values[values.size() / 2];
+}
+
+Image image_of(const std::vector<float>& rgba, int width, int height, int channels, float scale) {
+    Image image(width, height, channels);
+    for (std::size_t pixel = 0; pixel < rgba.size() / 4; ++pixel)
+        for (int c = 0; c < channels; ++c) image.pixels[pixel * channels + c] = rgba[pixel * 4 + c] * scale;
+    return image;
+}
+
+/// Milliseconds of many frames, by pass.
+struct TimeSeries {
+    std::vector<std::string> order;
+    std::map<std::string, std::vector<double>> by_pass;
+    std::vector<double> totals, cpu;
+
+    void add(const PassTimes& times, double cpu_ms) {
+        for (const PassTime& pass : times.passes) {
+            if (!by_pass.contains(pass.name)) order.push_back(pass.name);
+            by_pass[pass.name].push_back(pass.gpu_ms);
+        }
+        totals.push_back(times.total_ms);
+        cpu.push_back(cpu_ms);
+    }
+    void write(RealtimeStatistics& statistics) const {
+        for (const std::string& name : order) statistics.passes.push_back({name, median(by_pass.at(name))});
+        statistics.gpu_ms_total = median(totals);
+        statistics.cpu_ms = median(cpu);
+    }
+};
+
+FrameSample still_sample(const RealtimeOptions& options, int index, int count) {
+    FrameSample sample;
+    sample.index = static_cast<std::uint32_t>(index);
+    sample.count = static_cast<std::uint32_t>(count);
+    sample.jitter = realtime::sample_position(sample.index, sample.count, options.seed) - 0.5f;
+    sample.jitter_shadows = count > 1;
+    sample.shadow_index = static_cast<std::uint32_t>(index * std::min(count, shadow_grids) / count);
+    sample.environment = options.environment;
+    sample.seed = options.seed;
+    sample.replace = index == 0;
+    sample.texture_gradient_scale = 1.0f / std::sqrt(static_cast<float>(count));
+    return sample;
+}
+
+}  // namespace
+
+struct RealtimeRenderer::State {
+    std::unique_ptr<gpu::Device> device;
+    std::unique_ptr<FrameRenderer> frames;  // after the device, so destroyed before it
+
+    /// The mean of `count` samples of one AOV (or of the radiance).
+    Result<Image> accumulate(const Camera& camera, const RealtimeOptions& options, const AovKind& kind,
+                             TimeSeries* series, const Progress& progress) {
+        const int count = kind.single_sample ? 1 : std::max(1, options.samples);
+        for (int repeat = 0; repeat < most_overflow_repeats; ++repeat) {
+            int done = 0;
+            for (; done < count; ++done) {
+                FrameSample sample = still_sample(options, done, count);
+                if (count == 1) sample.jitter = glm::vec2(0);
+                // Each sample draws anew what blended surfaces let through.
+                if (frames->scene().has_blended()) sample.shadow_index = sample.index;
+                sample.aov = kind.code;
+                PassTimes times;
+                const auto begin = std::chrono::steady_clock::now();
+                if (auto rendered = frames->render(camera, sample, series ? &times : nullptr); !rendered)
+                    return tl::unexpected(rendered.error());
+                const std::chrono::duration<double, std::milli> cpu = std::chrono::steady_clock::now() - begin;
+                if (series) series->add(times, cpu.count());
+                if (progress && !progress(static_cast<double>(done + 1) / count)) {
+                    ++done;
+                    break;
+                }
+            }
+            auto grown = frames->grow_fragments();
+            if (!grown) return tl::unexpected(grown.error());
+            if (*grown) continue;
+            auto sum = frames->read_sum();
+            if (!sum) return tl::unexpected(sum.error());
+            return image_of(*sum, options.width, options.height, kind.channels, 1.0f / static_cast<float>(std::max(1, done)));
+        }
+        return fail("", "more blended surfaces overlap in this picture than there is room for");
+    }
+
+    Result<void> time_frames(const Camera& camera, const RealtimeOptions& options, RealtimeStatistics& statistics) {
+        TimeSeries series;
+        for (int i = 0; i < warm_up_frames + options.frames_timed; ++i) {
+            FrameSample sample = still_sample(options, i, warm_up_frames + options.frames_timed);
+            sample.jitter_shadows = false;
+            sample.force_shadows = true;
+            PassTimes times;
+            const auto begin = std::chrono::steady_clock::now();
+            if (auto done = frames->render(camera, sample); !done) return done;
+            const std::chrono::duration<double, std::milli> cpu = std::chrono::steady_clock::now() - begin;
+            if (auto done = device->wait_idle(); !done) return done;
+            times = frames->latest_times();
+            if (i >= warm_up_frames) series.add(times, cpu.count());
+        }
+        series.write(statistics);
+        return {};
+    }
+
+    Result<glm::vec3> luminance_along(glm::vec3 position, glm::vec3 direction, bool environment);
+};
+
+RealtimeRenderer::RealtimeRenderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RealtimeRenderer::~RealtimeRenderer() = default;
+RealtimeRenderer::RealtimeRenderer(RealtimeRenderer&&) noexcept = default;
+RealtimeRenderer& RealtimeRenderer::operator=(RealtimeRenderer&&) noexcept = default;
+
+Result<std::vector<DeviceInfo>> list_devices() {
+    auto found = gpu::list_devices();
+    if (!found) return tl::unexpected(found.error());
+    std::vector<DeviceInfo> devices;
+    for (const gpu::DeviceInfo& device : *found) {
+        DeviceInfo info;
+        info.number = device.number;
+        info.name = device.name;
+        info.driver = device.driver;
+        info.api_version = device.api_version;
+        info.is_cpu = device.is_cpu;
+        info.usable = device.usable;
+        info.missing = device.missing;
+        info.ray_query = device.ray_query;
+        info.ray_tracing_pipeline = device.ray_tracing_pipeline;
+        info.mesh_shader = device.mesh_shader;
+        info.conservative_rasterization = device.conservative_rasterization;
+        info.memory_bytes = device.memory_bytes;
+        devices.push_back(std::move(info));
+    }
+    return devices;
+}
+
+Result<RealtimeRenderer> RealtimeRenderer::create(const RealtimeSettings& settings) try {
+    auto instance = gpu::Instance::create({.validation = settings.validation});
+    if (!instance) return tl::unexpected(instance.error());
+    auto device = gpu::Device::create(*instance, {.device = settings.device});
+    if (!device) return tl::unexpected(device.error());
+    auto state = std::make_unique<State>();
+    state->device = std::move(*device);
+    auto frames = FrameRenderer::create(*state->device, settings.shader_directory);
+    if (!frames) return tl::unexpected(frames.error());
+    state->frames = std::move(*frames);
+    return RealtimeRenderer(std::move(state));
+} catch (const std::exception& exception) {
+    return fail("", fmt::format("the real-time renderer could not start: {}", exception.what()));
+}
+
+Result<RealtimeUpdate> RealtimeRenderer::update(const Scene& scene) try {
+    return state_->frames->update(scene);
+} catch (const std::exception& exception) {
+    return fail("", fmt::format("updating the GPU scene: {}", exception.what()));
+}
+
+Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camera, const RealtimeOptions& options,
+                                         RealtimeStatistics* statistics, const Progress& progress) try {
+    if (options.gi != "none")
+        return fail("gi", fmt::format("expected none (indirect light is not there yet in real time), found \"{}\"", options.gi));
+    std::vector<AovKind> aovs;
+    for (const std::string& name : options.aovs) {
+        auto kind = find_aov(name);
+        if (!kind) return tl::unexpected(kind.error());
+        aovs.push_back(*kind);
+    }
+    if (auto updated = update(scene); !updated) return tl::unexpected(updated.error());
+    FrameRenderer& frames = *state_->frames;
+    if (auto done = frames.resize(options.width, options.height, false); !done) return tl::unexpected(done.error());
+
+    TimeSeries series;
+    const bool time_still = statistics && options.frames_timed <= 0;
+    const AovKind radiance{"", shading::frame_aov_none, 3, false};
+    auto image = state_->accumulate(camera, options, radiance, time_still ? &series : nullptr, progress);
+    if (!image) return tl::unexpected(image.error());
+    Picture picture;
+    picture.image = std::move(*image);
+    picture.ev100 = camera.ev100();
+    picture.has_ev100 = true;
+    if (statistics) {
+        *statistics = {};
+        if (time_still) series.write(*statistics);
+        else if (auto done = state_->time_frames(camera, options, *statistics); !done) return tl::unexpected(done.error());
+        statistics->device = state_->device->info().name;
+        statistics->gpu_memory_bytes = state_->device->memory_bytes();
+    }
+    for (const AovKind& kind : aovs) {
+        auto layer = state_->accumulate(camera, options, kind, nullptr, {});
+        if (!layer) return tl::unexpected(layer.error());
+        picture.layers.push_back({kind.name, std::move(*layer)});
+    }
+    return picture;
+} catch (const std::exception& exception) {
+    return fail("", fmt::format("rendering in real time: {}", exception.what()));
+}
+
+Result<glm::vec3> RealtimeRenderer::State::luminance_along(glm::vec3 position, glm::vec3 direction, bool environment) {
+    Camera camera;
+    camera.position = position;
+    camera.target = position + direction;
+    camera.vertical_fov_rad = 1e-3f;  // the middle of one pixel is the ray; its size only chooses texture levels
+    if (auto done = frames->resize(1, 1, false); !done) return tl::unexpected(done.error());
+    // Several shadow grids, one ray: the mean of still samples without their movement in the pixel.
+    RealtimeOptions options;
+    options.environment = environment;
+    glm::vec3 mean(0);
+    for (int i = 0; i < shadow_grids; ++i) {
+        FrameSample sample = still_sample(options, i, shadow_grids);
+        sample.jitter = glm::vec2(0);
+        sample.texture_gradient_scale = 1.0f;
+        if (auto done = frames->render(camera, sample); !done) return tl::unexpected(done.error());
+    }
+    auto sum = frames->read_sum();
+    if (!sum) return tl::unexpected(sum.error());
+    for (int c = 0; c < 3; ++c) mean[c] = (*sum)[c] / static_cast<float>(shadow_grids);
+    return mean;
+}
+
+Result<std::vector<SensorReading>> RealtimeRenderer::measure(const Scene& scene, const RealtimeOptions& options) try {
+    if (options.gi != "none")
+        return fail("gi", fmt::format("expected none (indirect light is not there yet in real time), found \"{}\"", options.gi));
+    if (auto updated = update(scene); !updated) return tl::unexpected(updated.error());
+    FrameRenderer& frames = *state_->frames;
+    // A sensor on a surface looks out from it.
+    const float offset = 1e-4f * frames.scene().bounds().diagonal();
+    std::vector<const Sensor*> sensors;
+    scene.sensors().each([&](SensorId, const Sensor& sensor) { sensors.push_back(&sensor); });
+    std::vector<FrameRenderer::Receiver> receivers;
+    for (const Sensor* sensor : sensors) {
+        const glm::vec3 direction = glm::normalize(sensor->direction);
+        receivers.push_back({sensor->position + direction * offset, direction});
+    }
+    auto illuminances = frames.illuminances(receivers, options.environment);
+    if (!illuminances) return tl::unexpected(illuminances.error());
+    std::vector<SensorReading> readings;
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+        glm::vec3 rgb = (*illuminances)[i];
+        if (sensors[i]->type == SensorType::luminance) {
+            auto luminance = state_->luminance_along(receivers[i].position, receivers[i].normal, options.environment);
+            if (!luminance) return tl::unexpected(luminance.error());
+            rgb = *luminance;
+        }
+        SensorReading reading;
+        reading.name = sensors[i]->name;
+        reading.type = sensors[i]->type;
+        reading.rgb = rgb;
+        reading.value = 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z;
+        readings.push_back(std::move(reading));
+    }
+    return readings;
+} catch (const std::exception& exception) {
+    return fail("", fmt::format("measuring in real time: {}", exception.what()));
+}
+
+}  // namespace heliodon
