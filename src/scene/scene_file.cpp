@@ -23,7 +23,7 @@ public:
     void add(const std::string& name, const JsonCursor& owner) {
         if (!name.empty() && !names_.insert(name).second)
             throw Refusal{owner.path() + ".name",
-                          fmt::format("expected a {} name of its own, found \"{}\" again", kind_, name)};
+                          fmt::format("expected a name that no other {} has, found \"{}\" again", kind_, name)};
     }
 
 private:

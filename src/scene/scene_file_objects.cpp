@@ -95,7 +95,7 @@ void read_cone(ObjectReader& object, Light& light) {
     object.read_degrees("outer_deg", light.outer_rad, Range{.low = 0, .high = 90, .low_excluded = true});
     if (light.outer_rad < light.inner_rad)
         throw Refusal{object.cursor().path(),
-                      fmt::format("expected outer_deg at least inner_deg ({}), found {}", glm::degrees(light.inner_rad),
+                      fmt::format("expected outer_deg at least inner_deg ({:.6g}), found {:.6g}", glm::degrees(light.inner_rad),
                                   glm::degrees(light.outer_rad))};
 }
 
