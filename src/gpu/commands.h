@@ -17,6 +17,7 @@
 namespace heliodon::gpu {
 
 class Device;
+struct CommandRecording;
 
 /// One descriptor's content. What it becomes (storage or sampled, 2D or cube …) the shader's declaration says;
 /// images are expected in SHADER_READ_ONLY_OPTIMAL when sampled and in GENERAL when storage.
@@ -153,8 +154,7 @@ public:
 
 private:
     friend class Device;
-    struct Recording;
-    explicit Commands(std::unique_ptr<Recording> recording);
+    explicit Commands(std::unique_ptr<CommandRecording> recording);
 
     template <class Push>
     [[nodiscard]] static std::span<const std::byte> bytes_of(const Push& push) {
@@ -167,10 +167,11 @@ private:
     void dispatch_indirect_bytes(const ComputePipeline& pipeline, std::span<const std::byte> push, Bindings bindings,
                                  const Buffer& indirect, VkDeviceSize offset);
     void bind_bytes(const GraphicsPipeline& pipeline, std::span<const std::byte> push, Bindings bindings);
+    [[nodiscard]] bool can_draw();
     [[nodiscard]] bool bind_resources(VkPipelineBindPoint point, const Pipeline& pipeline, std::span<const std::byte> push,
                                       Bindings bindings);
 
-    std::unique_ptr<Recording> recording_;
+    std::unique_ptr<CommandRecording> recording_;
 };
 
 }  // namespace heliodon::gpu

@@ -21,6 +21,7 @@ namespace heliodon::gpu {
 
 class BindlessTextures;
 class Commands;
+struct CommandRecording;
 class PipelineCache;
 class Uploads;
 
@@ -117,13 +118,13 @@ public:
 
 private:
     friend class Uploads;
-    struct RecycledCommands;
+    friend class Commands;
     struct Retired {
         TimelineValue value = 0;
         std::function<void()> destroy;
     };
 
-    Device() = default;
+    Device();
     [[nodiscard]] Result<void> open(const DeviceSettings& settings);
     [[nodiscard]] Result<TimelineValue> submit_now(Commands commands, const SubmitSemaphores& semaphores);
     void collect(TimelineValue completed);
@@ -139,7 +140,8 @@ private:
     ExtensionFunctions functions_;
     VkSemaphore timeline_ = VK_NULL_HANDLE;
     TimelineValue submitted_ = 0;
-    std::deque<RecycledCommands> recycled_;
+    std::vector<std::unique_ptr<CommandRecording>> recordings_;  // submitted or free
+    int open_recordings_ = 0;
     std::deque<Retired> retired_;
     SamplerCache samplers_;
     std::unique_ptr<PipelineCache> pipeline_cache_;

@@ -36,6 +36,8 @@ public:
     [[nodiscard]] std::uint32_t push_constant_bytes() const { return push_constant_bytes_; }
     [[nodiscard]] VkShaderStageFlags push_constant_stages() const { return push_constant_stages_; }
     [[nodiscard]] bool uses_textures() const { return uses_textures_; }
+    /// Set 0 is pushed into the command buffer; otherwise it is allocated.
+    [[nodiscard]] bool push_descriptors() const { return push_descriptors_; }
 
 private:
     Device* device_ = nullptr;
@@ -44,7 +46,7 @@ private:
     std::vector<ShaderBinding> bindings_;
     std::uint32_t descriptor_count_ = 0, push_constant_bytes_ = 0;
     VkShaderStageFlags push_constant_stages_ = 0;
-    bool uses_textures_ = false;
+    bool uses_textures_ = false, push_descriptors_ = false;
 };
 
 /// What compute and graphics pipelines share: a name, a layout and the Vulkan pipeline.

@@ -1,0 +1,9 @@
+#pragma once
+
+// VMA as this room uses it: entry points come from volk.
+#include "gpu/vulkan.h"
+
+#define VMA_STATIC_VULKAN_FUNCTIONS 0
+#define VMA_DYNAMIC_VULKAN_FUNCTIONS 1
+#define VMA_VULKAN_VERSION 1003000
+#include <vk_mem_alloc.h>
