@@ -47,17 +47,18 @@ std::array<Angle, angle_points> half_turn() {
 }
 struct Rules {
     Cap cap;
-    GaussLegendre<24> fine_cap;  // rough glass has kinks within: total reflection, refraction upwards
     std::array<Angle, angle_points> turn = half_turn();
 };
 
-/// The height below which reflections, at one angle, dip under the horizon; the integral is split there to
-/// keep Gauss's rule accurate.
-double horizon(const VisibleNormals& normals, vec2 cos_sin) {
+/// The height where, at one angle, `holds` stops holding on the way down from the pole; the integral is split
+/// there to keep Gauss's rule accurate.
+template <class Predicate>
+double boundary(const VisibleNormals& normals, vec2 cos_sin, const Predicate& holds) {
+    const bool at_pole = holds(normals.at(cos_sin, 1.0));
     double below = 0.0, above = 1.0;
     for (int step = 0; step < 14; ++step) {
         const double middle = 0.5 * (above + below);
-        (normals.mirrored_z(normals.at(cos_sin, middle)) > 0.0f ? above : below) = middle;
+        (holds(normals.at(cos_sin, middle)) == at_pole ? above : below) = middle;
     }
     return above;
 }
@@ -67,7 +68,7 @@ glm::dvec2 reflection_albedo(float mu, float alpha, const Rules& rules) {
     const VisibleNormals normals(mu, alpha);
     glm::dvec2 sum(0);
     for (const auto& [cos_sin, angle_weight] : rules.turn) {
-        const double lowest = horizon(normals, cos_sin);
+        const double lowest = boundary(normals, cos_sin, [&](vec3 h) { return normals.mirrored_z(h) > 0.0f; });
         for (std::size_t i = 0; i < rules.cap.x.size(); ++i) {
             const double height = lowest + (1.0 - lowest) * rules.cap.x[i];
             const vec3 h = normals.at(cos_sin, height);
@@ -83,22 +84,34 @@ glm::dvec2 reflection_albedo(float mu, float alpha, const Rules& rules) {
 }
 
 /// Reflection with height-correlated and refraction with separable masking, as bsdf.h has them.
-template <std::size_t N>
-double single_glass_albedo(float mu, float alpha, float eta, const Rules& rules, const GaussLegendre<N>& cap) {
+double single_glass_albedo(float mu, float alpha, float eta, const Rules& rules) {
     const VisibleNormals normals(mu, alpha);
+    const auto value_at = [&](vec3 h) {
+        const float wi_z = normals.mirrored_z(h);
+        const double fresnel = fresnel_dielectric(dot(normals.wo, h), eta);
+        double value = wi_z > 0.0f ? fresnel * ggx_g2(mu, wi_z, alpha) / normals.g1 : 0.0;
+        vec3 refracted;
+        if (refract_about(normals.wo, h, eta, refracted) && refracted.z < 0.0f) {
+            value += (1.0 - fresnel) * ggx_g1(-refracted.z, alpha);
+        }
+        return value;
+    };
+    const auto refracts = [&](vec3 h) {
+        vec3 refracted;
+        return refract_about(normals.wo, h, eta, refracted);
+    };
     double sum = 0;
     for (const auto& [cos_sin, angle_weight] : rules.turn) {
-        for (std::size_t i = 0; i < N; ++i) {
-            const double height = cap.x[i];
-            const vec3 h = normals.at(cos_sin, height);
-            const float wi_z = normals.mirrored_z(h);
-            const double fresnel = fresnel_dielectric(dot(normals.wo, h), eta);
-            double value = wi_z > 0.0f ? fresnel * ggx_g2(mu, wi_z, alpha) / normals.g1 : 0.0;
-            vec3 refracted;
-            if (refract_about(normals.wo, h, eta, refracted) && refracted.z < 0.0f) {
-                value += (1.0 - fresnel) * ggx_g1(-refracted.z, alpha);
+        const double middle = boundary(normals, cos_sin, refracts);
+        const double ends[] = {0.0, middle, 1.0};
+        for (int part = 0; part < 2; ++part) {
+            const double length = ends[part + 1] - ends[part];
+            if (length < 1e-3) continue;
+            for (std::size_t i = 0; i < rules.cap.x.size(); ++i) {
+                const double height = ends[part] + length * rules.cap.x[i];
+                const double weight = rules.cap.weight[i] * length * 3.0 * height * height * angle_weight;
+                sum += weight * value_at(normals.at(cos_sin, height));
             }
-            sum += cap.weight[i] * 3.0 * height * height * angle_weight * value;
         }
     }
     return sum;
@@ -178,10 +191,8 @@ void fill_glass(std::span<float> table, const Rules& rules) {
             const float alpha = alpha_of_row(j, glass_rows);
             for (std::size_t i = 0; i < glass_columns; ++i) {
                 const double mu = std::max(glass_mu(static_cast<double>(i) / (glass_columns - 1), alpha), smallest_mu);
-                const float cosine = std::min(static_cast<float>(mu), 1.0f);
                 row[i] = static_cast<float>(
-                    std::min(1.0, alpha < 0.2f ? single_glass_albedo(cosine, alpha, eta, rules, rules.cap)
-                                               : single_glass_albedo(cosine, alpha, eta, rules, rules.fine_cap)));
+                    std::min(1.0, single_glass_albedo(std::min(static_cast<float>(mu), 1.0f), alpha, eta, rules)));
             }
             table[glass_average_start + k * glass_rows + j] = glass_average(row, alpha);
         }

@@ -13,7 +13,8 @@ SHADING_FN float ev100_from_camera(float aperture_f, float shutter_s, float iso)
     return log2(aperture_f * aperture_f / shutter_s * 100.0f / iso);
 }
 
-/// Hable 2010, "Filmic Tonemapping for Real-time Rendering", with his published A … F.
+/// Hable 2010, "Filmic Tonemapping for Real-time Rendering", with his published A … F:
+/// (x(Ax + CB) + DE)/(x(Ax + B) + DF) − E/F, brought over one denominator so that black stays exactly black.
 SHADING_FN vec3 hable_partial(vec3 x) {
     float a = 0.15f;
     float b = 0.50f;
@@ -21,7 +22,7 @@ SHADING_FN vec3 hable_partial(vec3 x) {
     float d = 0.20f;
     float e = 0.02f;
     float f = 0.30f;
-    return (x * (x * a + vec3(c * b)) + vec3(d * e)) / (x * (x * a + vec3(b)) + vec3(d * f)) - vec3(e / f);
+    return x * (x * (a * (f - e)) + vec3(b * (c * f - e))) / ((x * (x * a + vec3(b)) + vec3(d * f)) * f);
 }
 /// White at 11.2, exposure bias 2, as published. Input exposed, output linear in [0, 1].
 SHADING_FN vec3 tone_hable(vec3 exposed) {

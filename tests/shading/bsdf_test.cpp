@@ -146,7 +146,7 @@ TEST(Bsdf, ClearGlassPassesOrReflectsAllLightFromBothSides) {
             for (float mu : {0.1f, 0.3f, 0.6f, 1.0f}) {
                 for (bool inside : {false, true}) {
                     const double energy = returned_energy(glass_surface(roughness, ior, inside), direction(mu), 1 << 14).y;
-                    EXPECT_NEAR(energy, 1.0, 0.01)
+                    EXPECT_NEAR(energy, 1.0, 0.0075)
                         << "ior " << ior << " roughness " << roughness << " mu " << mu << (inside ? " inside" : "");
                 }
             }

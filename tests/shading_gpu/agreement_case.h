@@ -1,0 +1,118 @@
+// What both languages compute for case `i`: every header of the shading room on pseudo-random input.
+#ifndef HELIODON_TESTS_AGREEMENT_CASE_H
+#define HELIODON_TESTS_AGREEMENT_CASE_H
+#include "shading/environment.h"
+#include "shading/light.h"
+#include "shading/material_eval.h"
+#include "shading/octahedral.h"
+#include "shading/random.h"
+#include "shading/sky.h"
+#include "shading/tone.h"
+SHADING_BEGIN
+
+SHADING_CONST uint agreement_values = 16u;  // vec4 a case
+
+SHADING_FN Surface agreement_surface(uint i) {
+    vec4 a = random4(i, 0u, 0u, 1u);
+    vec4 b = random4(i, 0u, 1u, 1u);
+    vec4 c = random4(i, 0u, 2u, 1u);
+    Surface s = surface_default();
+    s.base_color = vec3(a);
+    s.metallic = i % 3u == 0u ? 0.0f : a.w;
+    s.roughness = 0.2f + 0.8f * b.x;
+    s.ior = 1.1f + 1.5f * b.y;
+    s.transmission = i % 2u == 0u ? b.z : 0.0f;
+    s.specular = b.w;
+    s.specular_color = vec3(c);
+    s.clearcoat = i % 5u == 0u ? c.w : 0.0f;
+    s.clearcoat_roughness = 0.3f;
+    s.model = i % 11u == 0u ? material_model_lambert : material_model_standard;
+    s.inside = i % 4u == 0u;
+    return s;
+}
+SHADING_FN vec3 agreement_direction(vec2 u) {
+    vec3 w = sample_uniform_hemisphere(u);
+    return normalize(vec3(w.x, w.y, max(w.z, 0.05f)));
+}
+SHADING_FN LightData agreement_light(uint i) {
+    vec4 a = random4(i, 0u, 3u, 1u);
+    vec4 b = random4(i, 0u, 4u, 1u);
+    LightData light;
+    light.type = i % 4u;
+    light.position = vec3(a) * 3.0f + vec3(2.0f);
+    light.radius = i % 3u == 0u ? 0.0f : 0.1f + 0.5f * a.w;
+    light.axis = sample_uniform_sphere(vec2(b));
+    light.intensity = vec3(100.0f, 50.0f, 20.0f) * b.z;
+    light.cos_inner = 0.9f;
+    light.cos_outer = -0.5f;
+    light.shadow = 0u;
+    light.padding0 = 0.0f;
+    light.padding1 = 0.0f;
+    return light;
+}
+
+/// Value `k` of case `i`.
+SHADING_FN vec4 agreement_value(uint i, uint k) {
+    vec4 u = random4(i, 1u, 0u, 1u);
+    vec4 v = random4(i, 1u, 1u, 1u);
+    Surface s = agreement_surface(i);
+    vec3 wo = agreement_direction(vec2(u));
+    vec3 wi = agreement_direction(vec2(u.z, u.w));
+    if (i % 7u == 0u) {
+        wi.z = -wi.z;
+    }
+    if (k == 0u) {
+        return vec4(bsdf_evaluate(s, wo, wi), bsdf_pdf(s, wo, wi));
+    }
+    if (k == 1u || k == 2u) {
+        BsdfSample sampled = bsdf_sample(s, wo, vec3(v));
+        return k == 1u ? vec4(sampled.direction, sampled.eta_scale) : vec4(sampled.weight, sampled.pdf);
+    }
+    if (k == 3u) {
+        return vec4(bsdf_diffuse_albedo(s, wo), ggx_albedo_split(v.x, v.y).x);
+    }
+    if (k == 4u) {
+        return vec4(bsdf_specular_albedo(s, wo), glass_albedo(v.x, 0.1f + 0.9f * v.y, 0.5f + v.z));
+    }
+    if (k == 5u || k == 6u) {
+        LightSample sampled = light_sample(agreement_light(i), vec3(0.3f, -0.2f, 0.1f), vec2(v));
+        return k == 5u ? vec4(sampled.direction, sampled.distance) : vec4(sampled.value, sampled.pdf);
+    }
+    if (k == 7u) {
+        vec3 w = sample_uniform_sphere(vec2(v));
+        vec2 uv = sky_uv(w, 0.3f);
+        return vec4(sky_direction(uv, 0.3f), uv.x);
+    }
+    if (k == 8u) {
+        return vec4(tone_hable(vec3(v) * 5.0f), srgb_encode(v.w));
+    }
+    if (k == 9u) {
+        vec3 w = sample_uniform_sphere(vec2(v));
+        vec2 e = octahedral_encode(w);
+        return vec4(octahedral_decode(e), e.x);
+    }
+    if (k == 10u) {
+        PrefilterSample sampled = prefilter_sample(hammersley(i, 4096u), 0.1f + 0.9f * v.x);
+        return vec4(sampled.direction, sampled.weight);
+    }
+    if (k == 11u) {
+        return vec4(fresnel_dielectric(v.x, 0.4f + 2.0f * v.y), fresnel_conductor(v.x, 0.2f + v.z, 3.0f * v.w),
+                    exposure_scale(10.0f * v.x), ev100_from_camera(1.0f + 10.0f * v.x, 0.01f, 100.0f));
+    }
+    if (k == 12u) {
+        vec3 n = normalize(vec3(v.x - 0.5f, v.y - 0.5f, 0.4f));
+        return vec4(usable_shading_normal(n, vec3(0.0f, 0.0f, 1.0f), wo), same_side(wi, wo, wi.z));
+    }
+    if (k == 13u) {
+        vec3 n = frame_from_normal(wo).tangent;
+        return vec4(perturb_normal_map(n, vec4(wi, -1.0f), vec3(v), 0.7f), u.x);
+    }
+    if (k == 14u) {
+        Frame frame = frame_from_normal(wo);
+        return vec4(perturb_bump(wo, frame.tangent + wo * 0.1f, frame.bitangent * v.w, v.x, v.y), sample_disk(vec2(v)).x);
+    }
+    return v;
+}
+
+SHADING_END
+#endif
