@@ -227,10 +227,13 @@ bool is_at_or_below(std::string_view path, std::string_view ancestor) {
     return path.size() == ancestor.size() || path[ancestor.size()] == '.' || path[ancestor.size()] == '[';
 }
 
-/// Whose fault the refusal is: an override's where it set the refused value, else the file's.
+/// Whose fault the refusal is: an override's where it set or made the refused value, else the file's.
 Error located(const Refusal& refusal, const std::string& name, std::span<const AppliedOverride> overrides) {
-    for (auto applied = overrides.rbegin(); applied != overrides.rend(); ++applied)
-        if (is_at_or_below(refusal.path, applied->json_path)) return {applied->label, refusal.message};
+    for (auto applied = overrides.rbegin(); applied != overrides.rend(); ++applied) {
+        if (!is_at_or_below(refusal.path, applied->first_made)) continue;
+        const bool inside_value = !is_at_or_below(applied->json_path, refusal.path);
+        return {inside_value ? applied->label + ": " + refusal.path : applied->label, refusal.message};
+    }
     return {name + ": " + refusal.path, refusal.message};
 }
 

@@ -41,7 +41,7 @@ Mesh read_teapot(ObjectReader& object) {
 }
 
 Mesh read_torus_knot(ObjectReader& object) {
-    constexpr int most_windings = 64, fewest_segments = 8, most_segments = 65536;
+    constexpr int most_windings = 64, fewest_segments = 8, most_segments = 8192;
     int p = 2, q = 3, segments = 512;
     float radius = 0.5f, tube_radius = 0.1f;
     object.read("p", p, 1, most_windings);

@@ -124,7 +124,7 @@ Result<AppliedOverride> set_value(Json& document, const Override& override_, con
     }
     const Result<Json> value = parse_document(override_.value, label);
     *at.value = value ? *value : Json(override_.value);
-    return AppliedOverride{label, first_made.empty() ? at.path : first_made};
+    return AppliedOverride{label, at.path, first_made.empty() ? at.path : first_made};
 }
 
 }  // namespace

@@ -11,8 +11,9 @@ namespace heliodon::scene_file {
 
 /// Where an override ended up, so that what the reader then refuses is told of the override, not of the file.
 struct AppliedOverride {
-    std::string label;      ///< "--set PATH=VALUE"
-    std::string json_path;  ///< of the first value it set or made
+    std::string label;       ///< "--set PATH=VALUE"
+    std::string json_path;   ///< of the value it set
+    std::string first_made;  ///< of the topmost value it made on the way; json_path where it made none
 };
 
 /// Sets the values in `document`. A key that is missing is made; reading the document refuses it when unknown.

@@ -96,7 +96,7 @@ const std::vector<BadFile>& bad_files() {
         {"FractionalSubdivisions", shape(R"("type": "teapot", "subdivisions": 2.5)"),
          "$.nodes[0].shape.subdivisions: expected a whole number from 1 to 256, found 2.5"},
         {"TooManySegments", shape(R"("type": "torus_knot", "segments": 1000000000000)"),
-         "$.nodes[0].shape.segments: expected a whole number from 8 to 65536, found 1000000000000"},
+         "$.nodes[0].shape.segments: expected a whole number from 8 to 8192, found 1000000000000"},
 
         {"FluxAsString", light(R"("type": "point", "flux_lm": "bright")"),
          "$.nodes[0].light.flux_lm: expected a number at least 0, found \"bright\""},

@@ -387,6 +387,10 @@ TEST(SceneOverride, ErrorsNameTheOverride) {
               "--set nodes.ball.shape.radius=-1: expected a number above 0, found -1");
     EXPECT_EQ(error("nodes.ball.shape.radius", "1e999"),
               "--set nodes.ball.shape.radius=1e999: expected a number above 0, found \"1e999\"");
+    EXPECT_EQ(error("cameras.main.position", "[1, up, 3]"),
+              "--set cameras.main.position=[1, up, 3]: expected a list of 3 numbers, found \"[1, up, 3]\"");
+    EXPECT_EQ(error("cameras.main.position", "[1, true, 3]"),
+              "--set cameras.main.position=[1, true, 3]: $.cameras[0].position[1]: expected a number, found true");
     EXPECT_EQ(error("", "1"), "--set =1: expected a dotted path before '=', found none");
     EXPECT_EQ(error("heliodon", "2").substr(0, 19), "--set heliodon=2: e");
     EXPECT_EQ(error_of(overridable, {{"render.voxels", "5"}, {"cameras.main.iso", "0"}}),
