@@ -6,6 +6,7 @@
 #include <bit>
 #include <map>
 
+#include "gpu/bindless_textures.h"
 #include "heliodon_passes_shaders.h"
 #include "passes/accumulate/accumulate.h"
 #include "passes/blend/blend.h"

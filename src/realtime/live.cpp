@@ -9,8 +9,11 @@
 #include "realtime/camera_frame.h"
 #include "realtime/frame_renderer.h"
 
-namespace heliodon::realtime {
+namespace heliodon {
 namespace {
+
+using realtime::FrameRenderer;
+using realtime::FrameSample;
 
 // A picture at rest is refined this long, then only shown.
 constexpr int most_samples = 1024;
@@ -52,7 +55,7 @@ Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camer
     FrameRenderer& frames = *state.frames;
     if (auto updated = frames.update(scene); !updated) return tl::unexpected(updated.error());
     if (auto done = frames.resize(width, height, true); !done) return tl::unexpected(done.error());
-    const shading::FrameData view = camera_frame(camera, frames.scene().bounds(), width, height, glm::vec2(0));
+    const shading::FrameData view = realtime::camera_frame(camera, frames.scene().bounds(), width, height, glm::vec2(0));
     const bool same = frames.scene().revision() == state.revision && environment == state.environment &&
                       std::memcmp(&view, &state.view, sizeof(view)) == 0;
     if (!same) state.samples = 0;
@@ -64,7 +67,7 @@ Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camer
         FrameSample sample;
         sample.index = static_cast<std::uint32_t>(state.samples);
         sample.count = 0;
-        sample.jitter = sample_position(sample.index, 0, 0) - 0.5f;
+        sample.jitter = realtime::sample_position(sample.index, 0, 0) - 0.5f;
         sample.jitter_shadows = state.samples >= filtered_samples;
         sample.shadow_index = sample.jitter_shadows ? sample.index / samples_per_shadow_grid : 0;
         sample.environment = environment;
@@ -81,14 +84,15 @@ Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camer
     }
     Frame frame;
     frame.image = &frames.display();
-    frame.samples = state.samples;
-    PassTimes times = frames.latest_times();
-    frame.passes = std::move(times.passes);
-    frame.gpu_ms_total = times.total_ms;
+    frame.accumulated_frames = state.samples;
     return frame;
 } catch (const std::exception& exception) {
     return fail("", fmt::format("rendering live: {}", exception.what()));
 }
+
+std::vector<PassTime> LiveRenderer::pass_times() { return state_->frames->latest_times().passes; }
+
+gpu::Pipelines& LiveRenderer::pipelines() { return state_->frames->pipelines(); }
 
 Result<void> LiveRenderer::reload_shaders() try {
     auto reload = state_->frames->pipelines().reload();
@@ -99,4 +103,4 @@ Result<void> LiveRenderer::reload_shaders() try {
     return fail("", fmt::format("reloading shaders: {}", exception.what()));
 }
 
-}  // namespace heliodon::realtime
+}  // namespace heliodon

@@ -6,10 +6,11 @@
 
 #include "core/result.h"
 #include "gpu/device.h"
+#include "gpu/pipeline.h"
 #include "realtime/renderer.h"
 #include "scene/scene.h"
 
-namespace heliodon::realtime {
+namespace heliodon {
 
 /// The real-time engine for a window: every call renders one frame of a scene that may have changed. While
 /// nothing changes the frames accumulate to the still picture; any change starts anew.
@@ -24,12 +25,14 @@ public:
     struct Frame {
         /// RGBA8, display-encoded; its state() says its layout. Valid until the next render().
         const gpu::Image* image = nullptr;
-        int samples = 0;                ///< accumulated in it
-        std::vector<PassTime> passes;   ///< GPU milliseconds of a frame a little earlier
-        double gpu_ms_total = 0;
+        int accumulated_frames = 0;  ///< since anything last changed
     };
     /// Submits the frame's work; the caller's next submission sees the finished picture. Does not wait for it.
     [[nodiscard]] Result<Frame> render(const Scene& scene, const Camera& camera, int width, int height, bool environment = true);
+    /// GPU milliseconds a pass of a frame a little earlier; never waits.
+    [[nodiscard]] std::vector<PassTime> pass_times();
+    /// For drawing over the picture with shaders of one's own.
+    [[nodiscard]] gpu::Pipelines& pipelines();
     /// Compiles changed shaders again; the first error, if any (the old code then stays in use).
     [[nodiscard]] Result<void> reload_shaders();
 
@@ -39,4 +42,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-}  // namespace heliodon::realtime
+}  // namespace heliodon

@@ -229,6 +229,8 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
         else if (auto done = state_->time_frames(camera, options, *statistics); !done) return tl::unexpected(done.error());
         statistics->device = state_->device->info().name;
         statistics->gpu_memory_bytes = state_->device->memory_bytes();
+        statistics->draw_calls = static_cast<int>(frames.draw_calls());
+        statistics->light_batches = static_cast<int>(frames.light_batches());
     }
     for (const AovKind& kind : aovs) {
         auto layer = state_->accumulate(camera, options, kind, nullptr, {});
@@ -239,6 +241,8 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
 } catch (const std::exception& exception) {
     return fail("", fmt::format("rendering in real time: {}", exception.what()));
 }
+
+std::vector<std::string> RealtimeRenderer::validation_messages() const { return state_->device->validation_messages(); }
 
 Result<glm::vec3> RealtimeRenderer::State::luminance_along(glm::vec3 position, glm::vec3 direction, bool environment) {
     Camera camera;

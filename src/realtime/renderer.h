@@ -51,6 +51,8 @@ struct RealtimeStatistics {
     double gpu_ms_total = 0, cpu_ms = 0;
     std::string device;
     std::uint64_t gpu_memory_bytes = 0;
+    int draw_calls = 0;      ///< indirect draws of one frame, whatever the number of nodes
+    int light_batches = 0;   ///< lights whose shadow maps do not fit together are lit in several batches
 };
 
 /// What one update of the GPU scene uploaded (tests read it).
@@ -74,6 +76,8 @@ public:
                                          RealtimeStatistics* statistics = nullptr, const Progress& progress = {});
     /// Every sensor of the scene, direct light and sky (no noise).
     [[nodiscard]] Result<std::vector<SensorReading>> measure(const Scene& scene, const RealtimeOptions& options);
+    /// What Vulkan's validation layer said so far (nothing without RealtimeSettings::validation).
+    [[nodiscard]] std::vector<std::string> validation_messages() const;
 
 private:
     struct State;

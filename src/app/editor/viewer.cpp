@@ -113,7 +113,7 @@ Result<void> show_frame(Viewer& viewer, const Scene& scene, const ViewState& vie
     auto commands = viewer.device->begin_commands("live frame");
     if (!commands) return tl::unexpected(commands.error());
     const VkExtent2D extent = viewer.swapchain.extent();
-    const auto live = viewer.renderer->render(*commands, scene, view.camera, static_cast<int>(extent.width), static_cast<int>(extent.height));
+    const auto live = viewer.renderer->render(scene, view.camera, static_cast<int>(extent.width), static_cast<int>(extent.height));
     if (!live) return tl::unexpected(live.error());
     accumulated_frames = live->accumulated_frames;
     commands->transition(*live->image, blit_source);

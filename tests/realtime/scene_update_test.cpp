@@ -1,0 +1,193 @@
+#include "import/import.h"
+#include "realtime/range_allocator.h"
+#include "realtime/shadow_plan.h"
+#include "scene/scene_file.h"
+#include "shared_data.h"
+#include "test_scenes.h"
+
+namespace heliodon::tests {
+namespace {
+
+using GpuSceneUpdate = RealtimeTest;
+
+TEST_F(GpuSceneUpdate, MovingANodeUploadsItsInstanceAndNoMesh) {
+    Scene scene;
+    const MaterialId white = scene.add_material(lambert(glm::vec3(1)));
+    add_floor(scene, 1, white);
+    const NodeId ball = add_shape_node(scene, Sphere{}, white);
+    const auto first = renderer->update(scene);
+    ASSERT_TRUE(first) << first.error().text();
+    EXPECT_EQ(first->meshes_uploaded, 2);
+    EXPECT_EQ(first->instances_uploaded, 2);
+    ASSERT_TRUE(scene.set_transform(ball, Transform{.translation = {0, 1, 0}}));
+    const auto moved = renderer->update(scene);
+    ASSERT_TRUE(moved) << moved.error().text();
+    EXPECT_EQ(moved->meshes_uploaded, 0);
+    EXPECT_EQ(moved->materials_uploaded, 0);
+    EXPECT_EQ(moved->instances_uploaded, 1);
+    EXPECT_EQ(moved->bytes_uploaded, sizeof(shading::InstanceData));
+    const auto idle = renderer->update(scene);
+    ASSERT_TRUE(idle) << idle.error().text();
+    EXPECT_EQ(idle->bytes_uploaded, 0u);
+}
+
+TEST_F(GpuSceneUpdate, EditingAMaterialUploadsThatMaterialAlone) {
+    Scene scene;
+    const MaterialId white = scene.add_material(lambert(glm::vec3(1)));
+    add_floor(scene, 4, white);
+    add_sun(scene, {0, -1, 0}, glm::vec3(3.14159265f));
+    EXPECT_NEAR(render(scene, camera_above(6, 3), 4).at(1, 1), 1.0f, 1e-4f);
+    ASSERT_TRUE(scene.set_material(white, lambert(glm::vec3(0.25f))));
+    const auto edited = renderer->update(scene);
+    ASSERT_TRUE(edited) << edited.error().text();
+    EXPECT_EQ(edited->materials_uploaded, 1);
+    EXPECT_EQ(edited->meshes_uploaded + edited->instances_uploaded, 0);
+    EXPECT_NEAR(render(scene, camera_above(6, 3), 4).at(1, 1), 0.25f, 1e-4f);
+}
+
+TEST_F(GpuSceneUpdate, AMovedBlockerMovesItsShadow) {
+    Scene scene;
+    const MaterialId white = scene.add_material(lambert(glm::vec3(1)));
+    add_floor(scene, 4, white);
+    add_sun(scene, {0, -1, 0}, glm::vec3(3.14159265f));
+    const NodeId sheet = add_floor(scene, 1, white, 8);
+    EXPECT_EQ(render(scene, camera_above(6, 3), 16).at(8, 8), 0.0f);
+    ASSERT_TRUE(scene.set_transform(sheet, Transform{.translation = {20, 0, 0}}));
+    EXPECT_NEAR(render(scene, camera_above(6, 3), 16).at(8, 8), 1.0f, 1e-4f);
+}
+
+TEST_F(GpuSceneUpdate, MeshesThatComeAndGoLeaveTheOthersAsTheyAre) {
+    Scene scene;
+    const MaterialId white = scene.add_material(lambert(glm::vec3(1)));
+    add_sun(scene, {0, -1, 0}, glm::vec3(3.14159265f));
+    add_floor(scene, 4, white);
+    for (int round = 0; round < 4; ++round) {
+        const NodeId ball = add_shape_node(scene, Sphere{{0, 0, 0}, 0.5f + 0.1f * round}, white);
+        const Image with = render(scene, camera_above(50, 3), 32);
+        EXPECT_NEAR(with.at(2, 2), 1.0f, 1e-4f);
+        EXPECT_LT(with.at(17, 19), 0.98f);  // the ball's slope
+        ASSERT_TRUE(scene.remove(ball));
+        EXPECT_NEAR(render(scene, camera_above(50, 3), 32).at(17, 19), 1.0f, 1e-4f);
+    }
+}
+
+TEST_F(GpuSceneUpdate, TenThousandNodesAreDrawnWithOneIndirectCallAPass) {
+    const auto calls = [&](int side) {
+        Scene scene;
+        const MaterialId white = scene.add_material(lambert(glm::vec3(1)));
+        const GeometryId box = scene.add_shape(Box{{0, 0, 0}, {0.8f, 0.8f, 0.8f}});
+        for (int i = 0; i < side * side; ++i) {
+            Node node;
+            node.transform.translation = glm::vec3(i % side - side / 2, 0, i / side - side / 2);
+            node.parts.push_back({box, white});
+            scene.add_node(std::move(node));
+        }
+        add_sun(scene, {0.2f, -1, 0.1f}, glm::vec3(1000));
+        auto fresh = RealtimeRenderer::create({.validation = true});
+        if (!fresh) return RealtimeStatistics{};
+        RealtimeOptions options;
+        options.width = options.height = 64;
+        options.samples = 1;
+        options.frames_timed = 3;
+        RealtimeStatistics statistics;
+        const auto picture = fresh->render(scene, camera_above(80, 50), options, &statistics);
+        EXPECT_TRUE(picture) << picture.error().text();
+        EXPECT_GT(picture ? picture->image.at(32, 32) : 0.0f, 0.0f);
+        for (const std::string& message : fresh->validation_messages()) ADD_FAILURE() << message;
+        return statistics;
+    };
+    const RealtimeStatistics few = calls(2), many = calls(100);
+    EXPECT_EQ(few.draw_calls, 2);  // shadow and visibility
+    EXPECT_EQ(many.draw_calls, 2);
+    // The processor's share of a frame does not grow with the nodes (2 500 times as many here).
+    EXPECT_LT(many.cpu_ms, 4 * few.cpu_ms + 1);
+}
+
+TEST_F(GpuSceneUpdate, AStillPictureConvergesToTheBoxFilteredEdge) {
+    // An edge through the middle of a pixel column: its share of the pixel is what the mean must show.
+    Scene scene;
+    Material white;
+    white.model = MaterialModel::unlit;
+    white.base_color = white.emission_nits = glm::vec3(1);
+    add_shape_node(scene, Quad{{-1, 0, -2}, {0, 0, 4}, {1.0f + 0.3f * 2 / 8, 0, 0}}, scene.add_material(white));
+    const Image image = render(scene, camera_above(50, 1), 8, 64);
+    EXPECT_NEAR(image.at(3, 4), 1.0f, 1e-5f);
+    EXPECT_NEAR(image.at(4, 4), 0.3f, 1.0f / 64);
+    EXPECT_EQ(image.at(5, 4), 0.0f);
+}
+
+TEST_F(GpuSceneUpdate, SensorsReadLuxOnPlanesAndNitsAlongRays) {
+    Scene scene;
+    add_floor(scene, 4, scene.add_material(lambert(glm::vec3(0.5f))));
+    add_point_light(scene, {0, 2, 0}, glm::vec3(100));
+    scene.add_sensor({"under", SensorType::illuminance, {0, 0, 0}, {0, 1, 0}});
+    scene.add_sensor({"beside", SensorType::illuminance, {1, 0, 0}, {0, 1, 0}});
+    scene.add_sensor({"below", SensorType::illuminance, {0, -0.5f, 0}, {0, 1, 0}});
+    scene.add_sensor({"looking", SensorType::luminance, {0, 1, 0}, {0, -1, 0}});
+    const auto readings = renderer->measure(scene, {});
+    ASSERT_TRUE(readings) << readings.error().text();
+    EXPECT_NEAR((*readings)[0].value, 25, 25 * 1e-3);  // 10⁻⁴ of the scene's size above the floor
+    EXPECT_NEAR((*readings)[1].value, 100 * 2 / std::pow(5.0, 1.5), 0.02);
+    EXPECT_EQ((*readings)[2].value, 0);  // in the floor's shadow
+    EXPECT_NEAR((*readings)[3].value, 25 * 0.5 / 3.14159265, 25 * 1e-3);
+}
+
+TEST(RangeAllocator, ReleasedNeighboursBecomeOneHoleAgain) {
+    realtime::RangeAllocator ranges;
+    ranges.grow(100);
+    const auto a = ranges.allocate(30), b = ranges.allocate(30), c = ranges.allocate(40);
+    ASSERT_TRUE(a && b && c);
+    EXPECT_FALSE(ranges.allocate(1));
+    ranges.release(*a, 30);
+    ranges.release(*c, 40);
+    EXPECT_FALSE(ranges.allocate(41));
+    ranges.release(*b, 30);
+    EXPECT_EQ(ranges.allocate(100), 0u);
+    ranges.grow(150);
+    EXPECT_EQ(ranges.allocate(50), 100u);
+}
+
+TEST(ShadowPlan, LightsBeyondTheBudgetGoToFurtherBatchesAndHolesNowhere) {
+    std::vector<shading::LightData> lights(5);
+    for (auto& light : lights) {
+        light = {};
+        light.intensity = glm::vec3(1);
+        light.type = shading::light_type_point;
+        light.axis = {0, 0, -1};
+    }
+    lights[1].type = shading::light_type_none;
+    lights[3].type = shading::light_type_directional;
+    const auto plan = realtime::plan_shadows(lights, 12);
+    ASSERT_EQ(plan.batches.size(), 2u);
+    EXPECT_EQ(plan.active_lights, (std::vector<std::uint32_t>{0, 2, 3, 4}));
+    EXPECT_EQ(plan.batches[0].light_count, 2u);
+    EXPECT_EQ(plan.batches[1].view_count, 7u);
+    EXPECT_EQ(plan.shadow_of_light[1], shading::no_texture);
+    EXPECT_EQ(plan.shadow_of_light[4], 0x80000001u);
+}
+
+/// The shared natus scene: 450 000 triangles.
+TEST_F(GpuSceneUpdate, MovingOneNodeOfALargeSceneUploadsNoMesh) {
+    const auto path = shared_path("scenes/natus.heliodon.json");
+    if (!path) GTEST_SKIP() << "no shared data";
+    Warnings warnings;
+    auto scene = load_scene(*path, {}, warnings);
+    ASSERT_TRUE(scene) << scene.error().text();
+    const auto first = renderer->update(*scene);
+    ASSERT_TRUE(first) << first.error().text();
+    EXPECT_GT(first->bytes_uploaded, 10u << 20);
+    const NodeId dragon = scene->find_node("dragon");
+    ASSERT_TRUE(scene->nodes().contains(dragon));
+    Transform transform = scene->nodes().find(dragon)->transform;
+    transform.translation.x += 0.1f;
+    ASSERT_TRUE(scene->set_transform(dragon, transform));
+    const auto moved = renderer->update(*scene);
+    ASSERT_TRUE(moved) << moved.error().text();
+    EXPECT_EQ(moved->meshes_uploaded, 0);
+    EXPECT_EQ(moved->textures_uploaded, 0);
+    EXPECT_GE(moved->instances_uploaded, 1);
+    EXPECT_LT(moved->bytes_uploaded, 4096u);
+}
+
+}  // namespace
+}  // namespace heliodon::tests
