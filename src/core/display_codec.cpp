@@ -1,9 +1,7 @@
-// 8- and 16-bit display pictures through stb. stb forgives what it should not (missing bytes, wrong
-// checksums), so the containers are walked first.
+// 8- and 16-bit display pictures through stb, once their containers are known to be sound.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -28,71 +26,6 @@
 
 namespace heliodon::codecs {
 namespace {
-
-std::uint32_t big_endian_32(std::string_view bytes, std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[at + i]);
-    return value;
-}
-
-/// CRC-32 of ISO 3309 (PNG specification, annex D), reflected polynomial 0xedb88320.
-std::uint32_t crc32(std::string_view bytes) {
-    static const auto table = [] {
-        std::array<std::uint32_t, 256> entries{};
-        for (std::uint32_t i = 0; i < 256; ++i) {
-            entries[i] = i;
-            for (int bit = 0; bit < 8; ++bit) entries[i] = entries[i] >> 1 ^ (entries[i] & 1 ? 0xedb88320u : 0u);
-        }
-        return entries;
-    }();
-    std::uint32_t crc = 0xffffffffu;
-    for (const char c : bytes) crc = crc >> 8 ^ table[(crc ^ static_cast<std::uint8_t>(c)) & 0xffu];
-    return ~crc;
-}
-
-/// Walks the chunks up to IEND, checks their checksums and returns the bytes a pixel takes before compression,
-/// rounded up (PNG specification, section 11.2.1).
-Result<int> check_png(std::string_view bytes) {
-    constexpr std::string_view signature("\x89PNG\r\n\x1a\n", 8);
-    if (!bytes.starts_with(signature)) return fail("", "expected a PNG picture");
-    int bytes_per_pixel = 0;
-    for (std::size_t at = signature.size();;) {
-        if (bytes.size() - at < 12) return fail("", fmt::format("truncated PNG at byte {}", bytes.size()));
-        const std::size_t length = big_endian_32(bytes, at);
-        const std::string_view type = bytes.substr(at + 4, 4);
-        if (length > bytes.size() - at - 12) return fail("", fmt::format("truncated or damaged PNG at byte {}", at));
-        if (crc32(bytes.substr(at + 4, 4 + length)) != big_endian_32(bytes, at + 8 + length)) {
-            return fail("", fmt::format("damaged PNG: wrong checksum at byte {}", at));
-        }
-        if (type == "IHDR" && length >= 10) {
-            const int depth = static_cast<std::uint8_t>(bytes[at + 16]), colour = static_cast<std::uint8_t>(bytes[at + 17]);
-            const int channels = (colour & 1) ? 1 : 1 + (colour & 2) + (colour >> 2 & 1);
-            bytes_per_pixel = std::max(1, depth * channels / 8);
-        }
-        if (type == "IEND") break;
-        at += 12 + length;
-    }
-    if (bytes_per_pixel == 0) return fail("", "damaged PNG: no header");
-    return bytes_per_pixel;
-}
-
-/// Walks the segments up to the first scan and asks for an end marker behind it (ITU-T T.81, annex B).
-Result<void> check_jpeg(std::string_view bytes) {
-    if (!bytes.starts_with("\xff\xd8\xff")) return fail("", "expected a JPEG picture");
-    std::size_t at = 2;
-    for (;;) {
-        while (at + 1 < bytes.size() && bytes[at] == '\xff' && bytes[at + 1] == '\xff') ++at;  // fill bytes
-        if (bytes.size() < at + 4) return fail("", fmt::format("truncated JPEG at byte {}", bytes.size()));
-        if (bytes[at] != '\xff') return fail("", fmt::format("damaged JPEG: expected a marker at byte {}", at));
-        if (bytes[at + 1] == '\xda') break;
-        at += 2 + (static_cast<std::size_t>(static_cast<std::uint8_t>(bytes[at + 2])) << 8 |
-                   static_cast<std::uint8_t>(bytes[at + 3]));
-    }
-    if (bytes.find("\xff\xd9", at) == std::string_view::npos) {
-        return fail("", fmt::format("truncated JPEG at byte {}", bytes.size()));
-    }
-    return {};
-}
 
 struct Freed {
     void operator()(void* memory) const { stbi_image_free(memory); }

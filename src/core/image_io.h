@@ -16,6 +16,10 @@ namespace heliodon {
 /// The same from a file's bytes; `name` gives the ending and stands in messages.
 [[nodiscard]] Result<Picture> decode_picture(const std::filesystem::path& name, std::string_view bytes);
 
+/// Whether a PNG's or JPEG's bytes are whole and safe to hand to stb, which forgives missing bytes and wrong
+/// checksums and trusts the sizes of Huffman tables. Bytes of any other format pass. Leaves `where` empty.
+[[nodiscard]] Result<void> check_display_picture(std::string_view bytes);
+
 /// Writes by ending: .exr (float, absolute values, `whiteLuminance` = 1, `ev100`, layers), .hdr, .pfm
 /// (linear), .png, .jpg (values already tone-mapped and *display-encoded* to [0,1]: units::srgb_encode).
 /// A layer's channels are named R G B (A), X Y Z where its name is `normal` or `position`, Z for a single

@@ -30,6 +30,12 @@ inline constexpr int max_side = 65536;
 [[nodiscard]] Result<Picture> decode_pfm(std::string_view bytes);
 [[nodiscard]] Result<std::string> encode_pfm(const Image& image);
 
+/// Walks a PNG's chunks and checks their checksums; gives the bytes that a pixel takes before compression,
+/// at least 1 (PNG specification, section 11.2.1).
+[[nodiscard]] Result<int> check_png(std::string_view bytes);
+/// Walks a JPEG's segments; asks for an end marker and for Huffman tables of lawful size (ITU-T T.81, annex B).
+[[nodiscard]] Result<void> check_jpeg(std::string_view bytes);
+
 /// 8- and 16-bit pictures, decoded from sRGB to linear; encoded from display values as they are.
 [[nodiscard]] Result<Picture> decode_png(std::string_view bytes);
 [[nodiscard]] Result<Picture> decode_jpeg(std::string_view bytes);

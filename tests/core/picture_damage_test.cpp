@@ -104,6 +104,27 @@ TEST_P(DamagedPicture, ThatIsAPictureOfAnotherFormatIsALocatedError) {
 INSTANTIATE_TEST_SUITE_P(Formats, DamagedPicture, ::testing::Values(".exr", ".hdr", ".pfm", ".png", ".jpg"),
                          [](const auto& info) { return std::string(info.param).substr(1); });
 
+TEST(DisplayContainers, OfOtherFormatsPass) {
+    EXPECT_TRUE(check_display_picture("BM a bitmap"));
+    EXPECT_TRUE(check_display_picture(""));
+}
+
+// stb 2.27 writes past its table of code sizes when the counts of a Huffman table add up to more than 256.
+TEST(DisplayContainers, WithUnlawfulHuffmanTablesAreRefused) {
+    const TemporaryDirectory directory;
+    Picture picture;
+    picture.image = tests::gradient(16, 16);
+    ASSERT_TRUE(write_picture(directory / "a.jpg", picture));
+    std::string bytes = read_file(directory / "a.jpg").value();
+    ASSERT_TRUE(check_display_picture(bytes));
+    const std::size_t table = bytes.find("\xff\xc4");
+    ASSERT_NE(table, std::string::npos);
+    bytes.replace(table + 5, 16, std::string(16, '\xff'));
+    const Result<Picture> read = decode_picture("a.jpg", bytes);
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().message.find("Huffman"), std::string::npos) << read.error().text();
+}
+
 /// Text with a size in it, in a file far too small for that size.
 struct AbsurdHeader {
     const char* name;
