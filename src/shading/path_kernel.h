@@ -119,20 +119,6 @@ SHADING_FN void kernel_add_visible_lights(SHADING_INOUT(PathState) path, float d
 
 // -- scattering
 
-SHADING_FN BsdfLobes kernel_prepare(Surface surface, vec3 wo) {
-    if (surface.model == material_model_lambert) {  // none of the tables' work is needed
-        BsdfLobes lobes;
-        lobes.glass = 0.0f;
-        lobes.coat_albedo = 0.0f;
-        lobes.probability_specular = 0.0f;
-        lobes.probability_diffuse = 1.0f;
-        lobes.probability_glass = 0.0f;
-        lobes.probability_coat = 0.0f;
-        return lobes;
-    }
-    return bsdf_prepare(surface, wo);
-}
-
 SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, Frame frame,
                                      Surface surface, BsdfLobes lobes, vec3 wo, float u_select, vec2 u) {
     const KernelLightSample light = kernel_sample_emitters(position, u_select, u);
@@ -179,7 +165,7 @@ SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec
     if (wo.z <= 0.0f) {
         return;
     }
-    const BsdfLobes lobes = kernel_prepare(surface, wo);
+    const BsdfLobes lobes = bsdf_prepare(surface, wo);
     const vec2 choices = kernel_random_pair(path.pixel_seed, path.sample_reversed, event, 1u);
     if (kernel_frame().emitter_count > 0u) {
         kernel_sample_direct(path, position, error, geometric, frame, surface, lobes, wo, choices.x,
