@@ -124,7 +124,8 @@ SHADING_FN vec3 perturb_bump(vec3 n, vec3 dp_du, vec3 dp_dv, float dh_du, float 
 SHADING_FN vec3 usable_shading_normal(vec3 n, vec3 geometric, vec3 wo) {
     vec3 facing = dot(n, geometric) < 0.0f ? -n : n;
     vec3 mirror = facing * (2.0f * dot(facing, wo)) - wo;
-    float lowest = 0.05f * max(dot(geometric, wo), 0.02f);  // sine of the mirror's least elevation
+    // A thousandth over the surface lets the mirrored ray leave it in single precision.
+    float lowest = min(1.0e-3f, dot(geometric, wo));
     float elevation = dot(mirror, geometric);
     if (elevation >= lowest) {
         return facing;

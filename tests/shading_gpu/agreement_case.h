@@ -19,7 +19,7 @@ SHADING_FN Surface agreement_surface(uint i) {
     Surface s = surface_default();
     s.base_color = vec3(a);
     s.metallic = i % 3u == 0u ? 0.0f : a.w;
-    s.roughness = 0.2f + 0.8f * b.x;
+    s.roughness = 0.1f + 0.9f * b.x;
     s.ior = 1.1f + 1.5f * b.y;
     s.transmission = i % 2u == 0u ? b.z : 0.0f;
     s.specular = b.w;
