@@ -14,8 +14,8 @@ struct Camera {
     glm::vec3 target{0, 1, 0};
     glm::vec3 up{0, 1, 0};
     float vertical_fov_rad = 0.6981317f;  ///< 40°
-    float near_m = 0.0f;  ///< 0: chosen from the scene's bounds
-    float far_m = 0.0f;   ///< 0: infinite (reversed depth)
+    float near_m = 0.0f;                  ///< 0: chosen from the scene's bounds
+    float far_m = 0.0f;                   ///< 0: infinite (reversed depth)
     float aperture_f = 2.8f;
     float shutter_s = 0.01f;
     float iso = 100.0f;

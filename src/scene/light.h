@@ -17,10 +17,10 @@ struct Light {
     bool lambertian = false;  ///< point: cosine emitter along −Z (intensity is on axis)
     float inner_rad = 0.0f;   ///< spot: half-angles
     float outer_rad = 0.7853982f;
-    float radius_m = 0.0f;    ///< point, spot: a sphere of this radius (soft shadows)
-    float angular_diameter_rad = 0.0f;        ///< directional
-    glm::vec3 direction{0.0f, 0.0f, -1.0f};   ///< directional: the way light travels, in the node's space
-    float range_m = 0.0f;     ///< KHR_lights_punctual's range, a hint only; 0 = unlimited
+    float radius_m = 0.0f;                   ///< point, spot: a sphere of this radius (soft shadows)
+    float angular_diameter_rad = 0.0f;       ///< directional
+    glm::vec3 direction{0.0f, 0.0f, -1.0f};  ///< directional: the way light travels, in the node's space
+    float range_m = 0.0f;                    ///< KHR_lights_punctual's range, a hint only; 0 = unlimited
 };
 
 /// Flux in lumen: the luminous intensity (0.2126 R + 0.7152 G + 0.0722 B) times flux_per_candela.

@@ -83,11 +83,26 @@ struct Sensor {
 /// What a keyframe channel drives. Values hold 1, 3 or 4 floats a key as the property needs (rotation:
 /// quaternion x y z w).
 enum class AnimatedProperty : std::uint8_t {
-    node_translation, node_rotation, node_scale, node_visible,
-    light_intensity, light_inner_rad, light_outer_rad, light_radius_m, light_direction,
-    camera_position, camera_target, camera_vertical_fov_rad, camera_ev100,
-    material_base_color, material_opacity, material_metallic, material_roughness, material_emission_nits,
-    material_transmission, material_ior,
+    node_translation,
+    node_rotation,
+    node_scale,
+    node_visible,
+    light_intensity,
+    light_inner_rad,
+    light_outer_rad,
+    light_radius_m,
+    light_direction,
+    camera_position,
+    camera_target,
+    camera_vertical_fov_rad,
+    camera_ev100,
+    material_base_color,
+    material_opacity,
+    material_metallic,
+    material_roughness,
+    material_emission_nits,
+    material_transmission,
+    material_ior,
     sky_luminance_nits,
 };
 enum class Interpolation : std::uint8_t { step, linear, cubic };
@@ -95,8 +110,8 @@ struct AnimationChannel {
     AnimatedProperty property = AnimatedProperty::node_translation;
     std::variant<std::monostate, NodeId, CameraId, MaterialId> target;  ///< monostate: the sky
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times_s;   ///< increasing
-    std::vector<float> values;    ///< cubic: in-tangent, value, out-tangent a key, as glTF
+    std::vector<float> times_s;  ///< increasing
+    std::vector<float> values;   ///< cubic: in-tangent, value, out-tangent a key, as glTF
 };
 /// Floats a value of `property` takes: 1, 3 or 4.
 [[nodiscard]] int component_count(AnimatedProperty property);
@@ -122,7 +137,16 @@ struct RenderSettings {
 /// One entry of the journal: which table, which slot, what about it changed.
 struct Change {
     enum class Table : std::uint8_t { node, geometry, texture, material, camera, sensor, animation, sky, settings };
-    enum Aspect : std::uint8_t { added = 1, removed = 2, value = 4, transform = 8, parts = 16, light = 32, hierarchy = 64, visibility = 128 };
+    enum Aspect : std::uint8_t {
+        added = 1,
+        removed = 2,
+        value = 4,
+        transform = 8,
+        parts = 16,
+        light = 32,
+        hierarchy = 64,
+        visibility = 128
+    };
     Table table;
     std::uint8_t aspects;
     std::uint32_t index;

@@ -12,13 +12,15 @@ namespace heliodon {
 
 /// Reads the model at `path` and returns the node that holds it, added to `scene` below `parent`. The
 /// scene room knows no model format: whoever loads a scene file passes the import room's function in.
-using ModelReader = std::function<Result<NodeId>(Scene& scene, NodeId parent, const std::filesystem::path& path, Warnings& warnings)>;
+using ModelReader =
+    std::function<Result<NodeId>(Scene& scene, NodeId parent, const std::filesystem::path& path, Warnings& warnings)>;
 /// Decodes picture files into textures of the scene, likewise from the import room. `TextureRequest`s of
 /// one material that pack together (occlusion, roughness, metallic) are merged there.
 struct MaterialTextures {
     std::filesystem::path base_color, roughness, metallic, occlusion, normal, bump, emission, opacity;
 };
-using MaterialTextureReader = std::function<Result<void>(Scene& scene, Material& material, const MaterialTextures& files, Warnings& warnings)>;
+using MaterialTextureReader =
+    std::function<Result<void>(Scene& scene, Material& material, const MaterialTextures& files, Warnings& warnings)>;
 /// Decodes an HDR picture (.hdr, .exr) for an image sky.
 using SkyImageReader = std::function<Result<TextureId>(Scene& scene, const std::filesystem::path& path)>;
 
@@ -40,7 +42,8 @@ struct Override {
 [[nodiscard]] Result<Scene> read_scene_file(const std::filesystem::path& path, std::span<const Override> overrides,
                                             const SceneFileReaders& readers, Warnings& warnings);
 /// The same from text; `base` resolves relative paths, `name` stands in messages.
-[[nodiscard]] Result<Scene> parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& base,
-                                        std::span<const Override> overrides, const SceneFileReaders& readers, Warnings& warnings);
+[[nodiscard]] Result<Scene> parse_scene(std::string_view text, const std::string& name,
+                                        const std::filesystem::path& base, std::span<const Override> overrides,
+                                        const SceneFileReaders& readers, Warnings& warnings);
 
 }  // namespace heliodon

@@ -15,7 +15,9 @@ constexpr float pi = std::numbers::pi_v<float>;
 
 /// Corner positions on a grid of 10 µm, so that vertices that only differ in texture coordinates meet.
 using Corner = std::tuple<long, long, long>;
-Corner corner(glm::vec3 p) { return {std::lround(p.x * 1e5), std::lround(p.y * 1e5), std::lround(p.z * 1e5)}; }
+Corner corner(glm::vec3 p) {
+    return {std::lround(p.x * 1e5), std::lround(p.y * 1e5), std::lround(p.z * 1e5)};
+}
 
 /// How often each directed edge occurs; a closed, consistently oriented surface has each as often as its
 /// opposite.
@@ -46,7 +48,8 @@ int open_edges(const Mesh& mesh) {
 double enclosed_volume(const Mesh& mesh) {
     double volume = 0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const glm::dvec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]], c = mesh.positions[mesh.indices[i + 2]];
+        const glm::dvec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
+                         c = mesh.positions[mesh.indices[i + 2]];
         volume += glm::dot(a, glm::cross(b, c)) / 6;
     }
     return volume;
@@ -74,7 +77,8 @@ float least_agreement(const Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
         const glm::vec3 face = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
-        for (const std::uint32_t k : {a, b, c}) least = std::min(least, glm::dot(mesh.normals[k], glm::normalize(face)));
+        for (const std::uint32_t k : {a, b, c})
+            least = std::min(least, glm::dot(mesh.normals[k], glm::normalize(face)));
     }
     return least;
 }
@@ -85,13 +89,15 @@ float least_tangent_agreement(const Mesh& mesh) {
     float least = 1.0f;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-        const glm::vec2 uv1 = mesh.texcoords[0][b] - mesh.texcoords[0][a], uv2 = mesh.texcoords[0][c] - mesh.texcoords[0][a];
+        const glm::vec2 uv1 = mesh.texcoords[0][b] - mesh.texcoords[0][a],
+                        uv2 = mesh.texcoords[0][c] - mesh.texcoords[0][a];
         const glm::vec3 e1 = mesh.positions[b] - mesh.positions[a], e2 = mesh.positions[c] - mesh.positions[a];
         const float determinant = uv1.x * uv2.y - uv2.x * uv1.y;
         const glm::vec3 along_u = glm::normalize((e1 * uv2.y - e2 * uv1.y) / determinant);
         const glm::vec3 along_v = glm::normalize((e2 * uv1.x - e1 * uv2.x) / determinant);
         for (const std::uint32_t k : {a, b, c}) {
-            const glm::vec3 tangent(mesh.tangents[k]), bitangent = mesh.tangents[k].w * glm::cross(mesh.normals[k], tangent);
+            const glm::vec3 tangent(mesh.tangents[k]),
+                bitangent = mesh.tangents[k].w * glm::cross(mesh.normals[k], tangent);
             least = std::min({least, glm::dot(tangent, along_u), glm::dot(bitangent, -along_v)});
         }
     }
@@ -170,8 +176,11 @@ TEST_P(TorusKnot, IsClosedAndFacesOutward) {
     EXPECT_GT(bounds.diagonal(), 1.0f);
 }
 
-INSTANTIATE_TEST_SUITE_P(Windings, TorusKnot, ::testing::Values(Knot{2, 3}, Knot{3, 2}, Knot{1, 1}, Knot{5, 3}, Knot{2, 7}),
-                         [](const auto& info) { return "p" + std::to_string(info.param.p) + "q" + std::to_string(info.param.q); });
+INSTANTIATE_TEST_SUITE_P(Windings, TorusKnot,
+                         ::testing::Values(Knot{2, 3}, Knot{3, 2}, Knot{1, 1}, Knot{5, 3}, Knot{2, 7}),
+                         [](const auto& info) {
+                             return "p" + std::to_string(info.param.p) + "q" + std::to_string(info.param.q);
+                         });
 
 TEST(TorusKnot, HasTheVolumeOfATubeAndSamplesItExactly) {
     constexpr float tube = 0.03f;
@@ -183,13 +192,15 @@ TEST(TorusKnot, HasTheVolumeOfATubeAndSamplesItExactly) {
         const double reach = 0.4 + 0.2 * std::cos(3 * t);
         return glm::dvec3(reach * std::cos(2 * t), 0.2 * std::sin(3 * t), reach * std::sin(2 * t));
     };
-    for (int i = 0; i < steps; ++i) length += glm::distance(centre(2 * pi * i / steps), centre(2 * pi * (i + 1) / steps));
+    for (int i = 0; i < steps; ++i)
+        length += glm::distance(centre(2 * pi * i / steps), centre(2 * pi * (i + 1) / steps));
     // Pappus: cross-section times the length of the centroids' path; the polygon's area is a little smaller.
     EXPECT_NEAR(enclosed_volume(mesh), pi * tube * tube * length, 0.01 * pi * tube * tube * length);
     for (std::size_t i = 0; i < mesh.positions.size(); i += 97) {
         const glm::vec3 on_centre_line = mesh.positions[i] - tube * mesh.normals[i];
         double nearest = 1e9;
-        for (int k = 0; k < steps; ++k) nearest = std::min(nearest, glm::distance(glm::dvec3(on_centre_line), centre(2 * pi * k / steps)));
+        for (int k = 0; k < steps; ++k)
+            nearest = std::min(nearest, glm::distance(glm::dvec3(on_centre_line), centre(2 * pi * k / steps)));
         ASSERT_LT(nearest, 2e-4) << "the normal goes straight out from the centre line";
     }
 }

@@ -21,6 +21,8 @@ struct BadFile {
     Schema schema = Schema::refuses;
 };
 
+std::ostream& operator<<(std::ostream& stream, const BadFile& file) { return stream << file.block; }
+
 std::string node(const std::string& members) {
     return fmt::format(R"("nodes": [{{{}}}])", members);
 }
