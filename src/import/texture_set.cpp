@@ -146,6 +146,8 @@ DecodedImage decode_image(const ImageSource& source) {
     int width = 0, height = 0, channels = 0;
     if (bytes.size() > std::size_t(std::numeric_limits<int>::max()))
         refuse(source.where, "expected a picture below 2 GiB");
+    const std::string_view encoded(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (const Result<void> sound = check_display_picture(encoded); !sound) refuse(source.where, sound.error().message);
     if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels))
         refuse(source.where, fmt::format("expected a picture (PNG, JPEG, TGA or BMP), found {} bytes that are none: {}",
                                          bytes.size(), stbi_failure_reason()));
