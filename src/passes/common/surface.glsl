@@ -146,12 +146,13 @@ SurfacePoint resolve_surface(uint instance_index, uint primitive, FrameData fram
 
     const vec2 uv0 = interpolate_texcoord(geometry, 0u, hit);
     const vec2 uv1 = interpolate_texcoord(geometry, 1u, hit);
-    point.material = material_at(material, uv0, uv1, vertex_color_at(geometry, hit), back);
+    const bool inside = back && (material.flags & material_flag_two_sided) == 0u;
+    point.material = material_at(material, uv0, uv1, vertex_color_at(geometry, hit), inside);
     const vec3 smooth_normal = interpolated_normal(instance, geometry, hit, outward);
     const vec3 normal = mapped_normal(instance, geometry, material, hit, uv0, uv1, smooth_normal);
     point.frame = frame_from_normal(usable_shading_normal(back ? -normal : normal, point.geometric, point.wo));
-    point.dark = back && (material.flags & material_flag_two_sided) == 0u && !point.material.surface.inside;
-    if (back && (material.flags & material_flag_two_sided) == 0u) point.material.emission = vec3(0.0f);
+    point.dark = inside && !point.material.surface.inside;
+    if (inside) point.material.emission = vec3(0.0f);
     return point;
 }
 
