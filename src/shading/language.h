@@ -5,6 +5,9 @@
 //  - float literals with a decimal point and an f: 0.5f (never 0.5: that is a double in C++);
 //  - SHADING_OUT(T) / SHADING_INOUT(T) for reference parameters;
 //  - constants as SHADING_CONST float name = …;
+//  - no name that GLSL reserves: sample, flat, smooth, input, output, common, filter, active, half, …;
+//  - a header whose functions fetch (material_fetch.h, path_kernel.h) opens no namespace and holds no
+//    constants: C++ includes it inside the struct whose members answer the fetches.
 #ifndef HELIODON_SHADING_LANGUAGE_H
 #define HELIODON_SHADING_LANGUAGE_H
 

@@ -56,7 +56,7 @@ template <class Predicate>
 double boundary(const VisibleNormals& normals, vec2 cos_sin, const Predicate& holds) {
     const bool at_pole = holds(normals.at(cos_sin, 1.0));
     double below = 0.0, above = 1.0;
-    for (int step = 0; step < 14; ++step) {
+    for (int step = 0; step < 10; ++step) {
         const double middle = 0.5 * (above + below);
         (holds(normals.at(cos_sin, middle)) == at_pole ? above : below) = middle;
     }
@@ -101,18 +101,18 @@ double single_glass_albedo(float mu, float alpha, float eta, const Rules& rules)
         return refract_about(normals.wo, h, eta, refracted);
     };
     double sum = 0;
-    for (const auto& [cos_sin, angle_weight] : rules.turn) {
-        const double middle = boundary(normals, cos_sin, refracts);
-        const double ends[] = {0.0, middle, 1.0};
-        for (int part = 0; part < 2; ++part) {
-            const double length = ends[part + 1] - ends[part];
-            if (length < 1e-3) continue;
-            for (std::size_t i = 0; i < rules.cap.x.size(); ++i) {
-                const double height = ends[part] + length * rules.cap.x[i];
-                const double weight = rules.cap.weight[i] * length * 3.0 * height * height * angle_weight;
-                sum += weight * value_at(normals.at(cos_sin, height));
-            }
+    const auto add = [&](vec2 cos_sin, double angle_weight, double begin, double end) {
+        for (std::size_t i = 0; i < rules.cap.x.size(); ++i) {
+            const double height = begin + (end - begin) * rules.cap.x[i];
+            const double weight = rules.cap.weight[i] * (end - begin) * 3.0 * height * height * angle_weight;
+            sum += weight * value_at(normals.at(cos_sin, height));
         }
+    };
+    for (const auto& [cos_sin, angle_weight] : rules.turn) {
+        // Only from the dense side can reflection be total.
+        const double middle = eta < 1.0f ? boundary(normals, cos_sin, refracts) : alpha < 0.2f ? 0.0 : 0.5;
+        if (middle > 1e-3) add(cos_sin, angle_weight, 0.0, middle);
+        add(cos_sin, angle_weight, middle, 1.0);
     }
     return sum;
 }

@@ -272,6 +272,32 @@ TEST(Bsdf, SampleWeightsAreValueOverDensity) {
     }
 }
 
+bool finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+TEST(Bsdf, StaysFiniteForExtremeMaterialsAndGrazingViews) {
+    const float edges[] = {0.0f, 1e-4f, 0.5f, 1.0f};
+    for (std::uint32_t i = 0; i < 4 * 4 * 4 * 4 * 4; ++i) {
+        Surface surface = standard_surface(vec3(i % 2 == 0 ? 1.0f : 0.0f), edges[i % 4], edges[i / 4 % 4]);
+        surface.transmission = edges[i / 16 % 4];
+        surface.clearcoat = edges[i / 64 % 4];
+        const float iors[] = {0.0f, 1.0f, 1.0005f, 3.0f};
+        surface.ior = iors[i / 256 % 4];
+        surface.inside = i % 3 == 0;
+        for (float mu : {1e-7f, 1e-3f, 0.7f, 1.0f}) {
+            const vec3 wo = direction(mu, 0.3f);
+            ASSERT_TRUE(finite(bsdf_albedo(surface, wo))) << i << ' ' << mu;
+            for (std::uint32_t k = 0; k < 12; ++k) {
+                const vec3 u = k == 0 ? vec3(0) : k == 1 ? vec3(0.99999994f) : tests::cube_point(k);
+                const BsdfSample sample = bsdf_sample(surface, wo, u);
+                ASSERT_TRUE(finite(sample.weight) && std::isfinite(sample.pdf) && sample.pdf >= 0) << i << ' ' << mu << ' ' << k;
+                const vec3 wi = k % 3 == 0 ? vec3(-wo.x, -wo.y, wo.z) : k % 3 == 1 ? -wo : direction(1e-7f, 2.0f);
+                ASSERT_TRUE(finite(bsdf_evaluate(surface, wo, wi))) << i << ' ' << mu << ' ' << k;
+                ASSERT_TRUE(std::isfinite(bsdf_pdf(surface, wo, wi))) << i << ' ' << mu << ' ' << k;
+            }
+        }
+    }
+}
+
 TEST(Bsdf, SmoothDielectricReflectsAsFresnelsF0Says) {
     Surface surface = standard_surface(vec3(0), 0, 0.0f);
     surface.ior = 1.52f;
