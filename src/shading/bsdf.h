@@ -19,7 +19,9 @@ struct BsdfSample {
     bool transmitted;
 };
 
-SHADING_FN float glass_fresnel(BsdfLobes l, float cos_theta) { return fresnel_dielectric(cos_theta, l.eta); }
+SHADING_FN float glass_fresnel(BsdfLobes l, float cos_theta) {
+    return fresnel_dielectric(cos_theta, l.eta);
+}
 /// Reflectance of glass with KHR_materials_specular's factors; total reflection stays total.
 SHADING_FN vec3 glass_reflectance(BsdfLobes l, float fresnel) {
     return fresnel >= 1.0f ? vec3(1.0f) : min(l.glass_specular * fresnel, vec3(1.0f));
@@ -179,7 +181,9 @@ SHADING_FN BsdfSample bsdf_sample_prepared(Surface s, BsdfLobes l, vec3 wo, vec3
 SHADING_FN vec3 bsdf_evaluate(Surface s, vec3 wo, vec3 wi) {
     return bsdf_evaluate_prepared(s, bsdf_prepare(s, wo), wo, wi);
 }
-SHADING_FN float bsdf_pdf(Surface s, vec3 wo, vec3 wi) { return bsdf_pdf_prepared(s, bsdf_prepare(s, wo), wo, wi); }
+SHADING_FN float bsdf_pdf(Surface s, vec3 wo, vec3 wi) {
+    return bsdf_pdf_prepared(s, bsdf_prepare(s, wo), wo, wi);
+}
 SHADING_FN BsdfSample bsdf_sample(Surface s, vec3 wo, vec3 u) {
     return bsdf_sample_prepared(s, bsdf_prepare(s, wo), wo, u);
 }
@@ -192,7 +196,9 @@ SHADING_FN vec3 bsdf_specular_albedo(Surface s, vec3 wo) {
     return bsdf_specular_albedo_prepared(s, l) + vec3(bsdf_coat_albedo_prepared(l));
 }
 /// All the light a surface under an even sky of radiance 1 sends towards `wo` by reflection.
-SHADING_FN vec3 bsdf_albedo(Surface s, vec3 wo) { return bsdf_diffuse_albedo(s, wo) + bsdf_specular_albedo(s, wo); }
+SHADING_FN vec3 bsdf_albedo(Surface s, vec3 wo) {
+    return bsdf_diffuse_albedo(s, wo) + bsdf_specular_albedo(s, wo);
+}
 
 SHADING_END
 #endif

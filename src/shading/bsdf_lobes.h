@@ -18,7 +18,7 @@ struct Surface {
     float transmission;
     float clearcoat;
     float clearcoat_roughness;
-    uint model;  // material_model_…
+    uint model;   // material_model_…
     bool inside;  // the viewer is within the solid: wo.z > 0 looks at the back of a transmissive surface
 };
 
@@ -42,25 +42,25 @@ SHADING_FN Surface surface_default() {
 struct BsdfLobes {
     float alpha;
     float coat_alpha;
-    float eta;  // index beyond the surface / index on the viewer's side
-    float metal;       // shares of the three substances, together 1
+    float eta;    // index beyond the surface / index on the viewer's side
+    float metal;  // shares of the three substances, together 1
     float dielectric;
     float glass;
     vec3 dielectric_f0;
     float dielectric_f90;
     vec3 glass_specular;
     vec3 transmission_color;
-    vec2 split;          // A, B at wo
-    float albedo;        // A + B
+    vec2 split;    // A, B at wo
+    float albedo;  // A + B
     float albedo_average;
-    vec3 metal_multiple;       // Fresnel terms of the multiple-scattering lobe
+    vec3 metal_multiple;  // Fresnel terms of the multiple-scattering lobe
     vec3 dielectric_multiple;
-    vec3 dielectric_below;     // 1 − specular albedo of the dielectric at wo
-    vec3 diffuse;              // base colour / (π · average of dielectric_below)
-    float coat_albedo;         // clearcoat · albedo of the coat at wo
+    vec3 dielectric_below;  // 1 − specular albedo of the dielectric at wo
+    vec3 diffuse;           // base colour / (π · average of dielectric_below)
+    float coat_albedo;      // clearcoat · albedo of the coat at wo
     float coat_average;
-    float glass_lost;           // 1 − albedo of single scattering in glass at wo
-    float glass_through;        // share of the glass's multiple scattering that goes through
+    float glass_lost;            // 1 − albedo of single scattering in glass at wo
+    float glass_through;         // share of the glass's multiple scattering that goes through
     float probability_specular;  // of sampling each lobe
     float probability_diffuse;
     float probability_glass;
@@ -75,7 +75,8 @@ SHADING_FN vec3 schlick_albedo(vec3 f0, float f90, vec3 multiple, vec2 split) {
 }
 /// What the dielectric's specular reflection leaves for its base.
 SHADING_FN vec3 dielectric_below(BsdfLobes l, vec2 split) {
-    return max(vec3(1.0f) - schlick_albedo(l.dielectric_f0, l.dielectric_f90, l.dielectric_multiple, split), vec3(0.0f));
+    return max(vec3(1.0f) - schlick_albedo(l.dielectric_f0, l.dielectric_f90, l.dielectric_multiple, split),
+               vec3(0.0f));
 }
 SHADING_FN float coat_directional_albedo(Surface s, vec2 split) {
     return s.clearcoat * (clearcoat_f0 * split.x + split.y);
@@ -128,7 +129,9 @@ SHADING_FN vec3 bsdf_specular_albedo_prepared(Surface s, BsdfLobes l) {
     return (metal + dielectric + glass) * (1.0f - l.coat_albedo);
 }
 /// Reflection of the clear coat, of its own roughness.
-SHADING_FN float bsdf_coat_albedo_prepared(BsdfLobes l) { return l.coat_albedo; }
+SHADING_FN float bsdf_coat_albedo_prepared(BsdfLobes l) {
+    return l.coat_albedo;
+}
 /// What glass lets through.
 SHADING_FN vec3 bsdf_transmission_albedo_prepared(Surface s, BsdfLobes l) {
     float f0 = f0_from_ior(s.ior);
@@ -162,8 +165,8 @@ SHADING_FN void prepare_albedos(Surface s, vec3 wo, SHADING_INOUT(BsdfLobes) l) 
     l.albedo = l.split.x + l.split.y;
     l.albedo_average = average.x + average.y;
     l.metal_multiple = multiple_scattering_fresnel(fresnel_schlick_average(s.base_color, 1.0f), l.albedo_average);
-    l.dielectric_multiple = multiple_scattering_fresnel(
-        fresnel_schlick_average(l.dielectric_f0, l.dielectric_f90), l.albedo_average);
+    l.dielectric_multiple =
+        multiple_scattering_fresnel(fresnel_schlick_average(l.dielectric_f0, l.dielectric_f90), l.albedo_average);
     l.dielectric_below = dielectric_below(l, l.split);
     l.diffuse = s.base_color * inverse_pi / max(dielectric_below(l, average), vec3(1.0e-6f));
 

@@ -21,7 +21,9 @@ SHADING_FN vec3 fresnel_schlick(vec3 f0, float f90, float cos_theta) {
     return f0 + (vec3(f90) - f0) * schlick_weight(cos_theta);
 }
 /// Its cosine-weighted average over the hemisphere: 2 ∫ (1 − μ)⁵ μ dμ = 1/21.
-SHADING_FN vec3 fresnel_schlick_average(vec3 f0, float f90) { return f0 + (vec3(f90) - f0) * (1.0f / 21.0f); }
+SHADING_FN vec3 fresnel_schlick_average(vec3 f0, float f90) {
+    return f0 + (vec3(f90) - f0) * (1.0f / 21.0f);
+}
 
 /// Exact dielectric; `eta` = index beyond the surface / index on the side of the incident ray, whose
 /// cosine is `cos_theta` ≥ 0. 1 under total internal reflection. Fresnel 1823 in the form of Walter et

@@ -29,7 +29,9 @@ SHADING_FN float ggx_lambda(float mu, float alpha) {
     return 0.5f * x / (sqrt(1.0f + x) + 1.0f);
 }
 /// Smith masking of one direction.
-SHADING_FN float ggx_g1(float mu, float alpha) { return 1.0f / (1.0f + ggx_lambda(mu, alpha)); }
+SHADING_FN float ggx_g1(float mu, float alpha) {
+    return 1.0f / (1.0f + ggx_lambda(mu, alpha));
+}
 /// Height-correlated masking and shadowing on one side: Heitz 2014, eq. 99.
 SHADING_FN float ggx_g2(float mu_o, float mu_i, float alpha) {
     return 1.0f / (1.0f + ggx_lambda(mu_o, alpha) + ggx_lambda(mu_i, alpha));
@@ -44,7 +46,9 @@ SHADING_FN vec3 ggx_cap_normal(vec3 stretched, float alpha, float depth, float c
     float z = (1.0f - depth) * (1.0f + stretched.z);
     return normalize(vec3(alpha * (r * cos_phi + stretched.x), alpha * (r * sin_phi + stretched.y), max(z, 1.0e-12f)));
 }
-SHADING_FN vec3 ggx_stretch(vec3 wo, float alpha) { return normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z)); }
+SHADING_FN vec3 ggx_stretch(vec3 wo, float alpha) {
+    return normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
+}
 /// A half vector distributed as the normals visible from `wo`.
 SHADING_FN vec3 ggx_sample_visible_normal(vec3 wo, float alpha, vec2 u) {
     float phi = 2.0f * pi * u.x;

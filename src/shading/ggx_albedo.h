@@ -42,7 +42,9 @@ SHADING_FN float alpha_coordinate(float alpha) {
     float smallest = sqrt(ggx_smallest_alpha);
     return clamp((sqrt(alpha) - smallest) / (1.0f - smallest), 0.0f, 1.0f);
 }
-SHADING_FN vec2 ggx_albedo_entry(uint index) { return vec2(shading_table(index), shading_table(index + 1u)); }
+SHADING_FN vec2 ggx_albedo_entry(uint index) {
+    return vec2(shading_table(index), shading_table(index + 1u));
+}
 
 /// (A, B) at cosine `mu`, bilinear.
 SHADING_FN vec2 ggx_albedo_split(float mu, float alpha) {
@@ -75,7 +77,8 @@ SHADING_FN vec3 multiple_scattering_fresnel(vec3 f_average, float e_average) {
 /// and fraction towards the next.
 SHADING_FN uint glass_index(float eta, SHADING_OUT(float) fraction) {
     float dense = max(eta, 1.0f / eta);
-    float coordinate = clamp((dense - 1.0f) / (dense + 1.0f) / glass_largest_f0_root, 0.0f, 1.0f) * float(glass_indices - 1u);
+    float coordinate =
+        clamp((dense - 1.0f) / (dense + 1.0f) / glass_largest_f0_root, 0.0f, 1.0f) * float(glass_indices - 1u);
     uint k = min(uint(coordinate), glass_indices - 2u);
     fraction = coordinate - float(k);
     return eta >= 1.0f ? k : k + glass_indices;

@@ -55,10 +55,14 @@ SHADING_FN vec3 light_flux(LightData light) {
     return vec3(0.0f);
 }
 
-SHADING_FN bool light_is_delta(LightData light) { return light.radius <= 0.0f; }
+SHADING_FN bool light_is_delta(LightData light) {
+    return light.radius <= 0.0f;
+}
 
 /// 1 − cos α from sin² α, without cancellation for small angles.
-SHADING_FN float one_minus_cos_from_sin2(float sin2) { return sin2 / (1.0f + sqrt(max(0.0f, 1.0f - sin2))); }
+SHADING_FN float one_minus_cos_from_sin2(float sin2) {
+    return sin2 / (1.0f + sqrt(max(0.0f, 1.0f - sin2)));
+}
 
 /// 1 − cos of the half-angle under which an area light appears from `point`; 0 from within a sphere,
 /// whose inner side emits nothing.

@@ -25,7 +25,9 @@ SHADING_FN uvec4 pcg4d(uvec4 v) {
 }
 
 /// A uniform float in [0, 1): the upper 24 bits, so that rounding never gives 1.
-SHADING_FN float uint_to_unit_float(uint bits) { return float(bits >> 8u) * 5.9604644775390625e-8f; }
+SHADING_FN float uint_to_unit_float(uint bits) {
+    return float(bits >> 8u) * 5.9604644775390625e-8f;
+}
 
 /// Four independent uniform numbers in [0, 1). `dimension` counts the calls within one sample.
 SHADING_FN vec4 random4(uint pixel, uint sample_index, uint dimension, uint seed) {

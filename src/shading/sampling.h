@@ -25,7 +25,9 @@ SHADING_FN Frame frame_from_normal(vec3 n) {
     frame.normal = n;
     return frame;
 }
-SHADING_FN vec3 to_world(Frame frame, vec3 v) { return frame.tangent * v.x + frame.bitangent * v.y + frame.normal * v.z; }
+SHADING_FN vec3 to_world(Frame frame, vec3 v) {
+    return frame.tangent * v.x + frame.bitangent * v.y + frame.normal * v.z;
+}
 SHADING_FN vec3 to_local(Frame frame, vec3 v) {
     return vec3(dot(v, frame.tangent), dot(v, frame.bitangent), dot(v, frame.normal));
 }
@@ -47,7 +49,9 @@ SHADING_FN vec3 sample_cosine_hemisphere(vec2 u) {
     vec2 d = sample_disk(u);
     return vec3(d.x, d.y, sqrt(max(0.0f, 1.0f - d.x * d.x - d.y * d.y)));
 }
-SHADING_FN float cosine_hemisphere_pdf(float cos_theta) { return max(cos_theta, 0.0f) * inverse_pi; }
+SHADING_FN float cosine_hemisphere_pdf(float cos_theta) {
+    return max(cos_theta, 0.0f) * inverse_pi;
+}
 
 /// Density 1/(2π) about +z.
 SHADING_FN vec3 sample_uniform_hemisphere(vec2 u) {
@@ -72,7 +76,9 @@ SHADING_FN vec3 sample_cone(vec2 u, float one_minus_cos) {
     float r = sqrt(max(0.0f, t * (2.0f - t)));
     return vec3(r * cos(2.0f * pi * u.y), r * sin(2.0f * pi * u.y), 1.0f - t);
 }
-SHADING_FN float cone_pdf(float one_minus_cos) { return 1.0f / (2.0f * pi * one_minus_cos); }
+SHADING_FN float cone_pdf(float one_minus_cos) {
+    return 1.0f / (2.0f * pi * one_minus_cos);
+}
 
 /// Barycentric weights of a uniform point of a triangle: Heitz 2019, "A Low-Distortion Map Between
 /// Triangle and Square".
@@ -92,8 +98,12 @@ SHADING_FN float power_heuristic(float pdf, float other_pdf) {
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-SHADING_FN float luminance(vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
-SHADING_FN float max_component(vec3 c) { return max(c.x, max(c.y, c.z)); }
+SHADING_FN float luminance(vec3 c) {
+    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
+SHADING_FN float max_component(vec3 c) {
+    return max(c.x, max(c.y, c.z));
+}
 
 SHADING_END
 #endif

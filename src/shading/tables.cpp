@@ -23,7 +23,9 @@ struct VisibleNormals {
     float alpha, g1;
 
     VisibleNormals(float mu, float alpha_)
-        : wo(std::sqrt(std::max(0.0f, 1.0f - mu * mu)), 0.0f, mu), stretched(ggx_stretch(wo, alpha_)), alpha(alpha_),
+        : wo(std::sqrt(std::max(0.0f, 1.0f - mu * mu)), 0.0f, mu),
+          stretched(ggx_stretch(wo, alpha_)),
+          alpha(alpha_),
           g1(ggx_g1(mu, alpha_)) {}
     [[nodiscard]] vec3 at(vec2 cos_sin, double height) const {
         const float depth = static_cast<float>(1.0 - height * height * height);
@@ -131,7 +133,9 @@ glm::dvec2 reflection_average(std::span<const float> row) {
     }
     return sum;
 }
-double glass_mu(double x, double alpha) { return x * alpha / (1.0 + alpha - x); }
+double glass_mu(double x, double alpha) {
+    return x * alpha / (1.0 + alpha - x);
+}
 /// The same for a row of glass: ∫ f d(μ²), cell by cell in the row's own coordinate.
 float glass_average(std::span<const float> row, double alpha) {
     const GaussLegendre<6> rule;
@@ -187,7 +191,8 @@ void fill_glass(std::span<float> table, const Rules& rules) {
         const double dense = (1.0 + root) / (1.0 - root);
         const float eta = static_cast<float>(k < glass_indices ? dense : 1.0 / dense);
         for (std::size_t j = 0; j < glass_rows; ++j) {
-            const std::span row = table.subspan(glass_albedo_start + (k * glass_rows + j) * glass_columns, glass_columns);
+            const std::span row =
+                table.subspan(glass_albedo_start + (k * glass_rows + j) * glass_columns, glass_columns);
             const float alpha = alpha_of_row(j, glass_rows);
             for (std::size_t i = 0; i < glass_columns; ++i) {
                 const double mu = std::max(glass_mu(static_cast<double>(i) / (glass_columns - 1), alpha), smallest_mu);

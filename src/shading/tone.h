@@ -6,7 +6,9 @@ SHADING_BEGIN
 
 /// What radiance is multiplied by before a tone curve: 1/(1.2 · 2^EV100). ISO 12232:2006's saturation
 /// speed 78/Lmax with a lens of q = 0.65 makes the 1.2 (Lagarde & de Rousiers 2014, section 5.1.2).
-SHADING_FN float exposure_scale(float ev100) { return 1.0f / (1.2f * exp2(ev100)); }
+SHADING_FN float exposure_scale(float ev100) {
+    return 1.0f / (1.2f * exp2(ev100));
+}
 
 /// log2(N²/t · 100/S): aperture f-number, shutter in seconds, sensitivity in ISO.
 SHADING_FN float ev100_from_camera(float aperture_f, float shutter_s, float iso) {

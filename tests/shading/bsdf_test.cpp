@@ -24,7 +24,8 @@ TEST(Bsdf, WhiteFurnaceReturnsOneForEveryRoughnessAndMetalness) {
             for (float mu : cosines) {
                 const Surface surface = standard_surface(vec3(1), metallic, roughness);
                 const double energy = returned_energy(surface, direction(mu), 8192).y;
-                EXPECT_NEAR(energy, 1.0, 0.005) << "roughness " << roughness << " metallic " << metallic << " mu " << mu;
+                EXPECT_NEAR(energy, 1.0, 0.005)
+                    << "roughness " << roughness << " metallic " << metallic << " mu " << mu;
             }
         }
     }
@@ -45,7 +46,8 @@ TEST(Bsdf, AlbedosOfAWhiteSurfaceAddUpToExactlyOne) {
         for (float metallic : {0.0f, 0.5f, 1.0f}) {
             for (float mu : cosines) {
                 const Surface surface = standard_surface(vec3(1), metallic, roughness);
-                EXPECT_NEAR(bsdf_albedo(surface, direction(mu)).y, 1.0f, 1e-5f) << roughness << ' ' << metallic << ' ' << mu;
+                EXPECT_NEAR(bsdf_albedo(surface, direction(mu)).y, 1.0f, 1e-5f)
+                    << roughness << ' ' << metallic << ' ' << mu;
             }
         }
     }
@@ -134,7 +136,8 @@ TEST(Bsdf, NoSurfaceReturnsMoreLightThanItReceives) {
         surface.base_color = i % 2 == 0 ? vec3(1) : surface.base_color;
         const float mu = 0.03f + 0.97f * random1(i, 5, 0, 7);
         const glm::dvec3 energy = returned_energy(surface, direction(mu), 8192);
-        for (int c = 0; c < 3; ++c) EXPECT_LE(energy[c], 1.006) << i << " mu " << mu << " roughness " << surface.roughness;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_LE(energy[c], 1.006) << i << " mu " << mu << " roughness " << surface.roughness;
         surface.inside = surface.transmission > 0 && surface.metallic < 1;
         if (surface.inside) EXPECT_LE(returned_energy(surface, direction(mu), 8192).y, 1.006) << i << " inside";
     }
@@ -145,7 +148,8 @@ TEST(Bsdf, ClearGlassPassesOrReflectsAllLightFromBothSides) {
         for (float roughness : {0.0f, 0.1f, 0.3f, 0.5f, 0.8f, 1.0f}) {
             for (float mu : {0.1f, 0.3f, 0.6f, 1.0f}) {
                 for (bool inside : {false, true}) {
-                    const double energy = returned_energy(glass_surface(roughness, ior, inside), direction(mu), 1 << 14).y;
+                    const double energy =
+                        returned_energy(glass_surface(roughness, ior, inside), direction(mu), 1 << 14).y;
                     EXPECT_NEAR(energy, 1.0, 0.0075)
                         << "ior " << ior << " roughness " << roughness << " mu " << mu << (inside ? " inside" : "");
                 }
@@ -164,7 +168,8 @@ TEST(Bsdf, ClearCoatLosesNoMoreThanAFewPerCent) {
                 const double energy = returned_energy(surface, direction(mu), 1 << 14).y;
                 EXPECT_LE(energy, 1.003);
                 EXPECT_GE(energy, 0.95);
-                EXPECT_NEAR(bsdf_albedo(surface, direction(mu)).y, energy, 0.05) << roughness << ' ' << metallic << ' ' << mu;
+                EXPECT_NEAR(bsdf_albedo(surface, direction(mu)).y, energy, 0.05)
+                    << roughness << ' ' << metallic << ' ' << mu;
             }
         }
     }
@@ -252,7 +257,8 @@ TEST(Bsdf, SamplesFollowTheirDensityByChiSquare) {
                 statistic += (pooled_count - pooled_expected) * (pooled_count - pooled_expected) / pooled_expected;
                 ++cells;
             }
-            EXPECT_GT(chi_square_p(statistic, cells - 1), 1e-4) << test.name << ' ' << mu << " χ² " << statistic << " / " << cells;
+            EXPECT_GT(chi_square_p(statistic, cells - 1), 1e-4)
+                << test.name << ' ' << mu << " χ² " << statistic << " / " << cells;
         }
     }
 }
@@ -272,7 +278,9 @@ TEST(Bsdf, SampleWeightsAreValueOverDensity) {
     }
 }
 
-bool finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 TEST(Bsdf, StaysFiniteForExtremeMaterialsAndGrazingViews) {
     const float edges[] = {0.0f, 1e-4f, 0.5f, 1.0f};
@@ -289,7 +297,8 @@ TEST(Bsdf, StaysFiniteForExtremeMaterialsAndGrazingViews) {
             for (std::uint32_t k = 0; k < 12; ++k) {
                 const vec3 u = k == 0 ? vec3(0) : k == 1 ? vec3(0.99999994f) : tests::cube_point(k);
                 const BsdfSample sample = bsdf_sample(surface, wo, u);
-                ASSERT_TRUE(finite(sample.weight) && std::isfinite(sample.pdf) && sample.pdf >= 0) << i << ' ' << mu << ' ' << k;
+                ASSERT_TRUE(finite(sample.weight) && std::isfinite(sample.pdf) && sample.pdf >= 0)
+                    << i << ' ' << mu << ' ' << k;
                 const vec3 wi = k % 3 == 0 ? vec3(-wo.x, -wo.y, wo.z) : k % 3 == 1 ? -wo : direction(1e-7f, 2.0f);
                 ASSERT_TRUE(finite(bsdf_evaluate(surface, wo, wi))) << i << ' ' << mu << ' ' << k;
                 ASSERT_TRUE(std::isfinite(bsdf_pdf(surface, wo, wi))) << i << ' ' << mu << ' ' << k;

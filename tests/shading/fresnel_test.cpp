@@ -10,7 +10,9 @@
 namespace heliodon::shading {
 namespace {
 
-float cos_deg(double degrees) { return static_cast<float>(std::cos(degrees * std::numbers::pi / 180)); }
+float cos_deg(double degrees) {
+    return static_cast<float>(std::cos(degrees * std::numbers::pi / 180));
+}
 
 double average(float eta) {
     // Split at the critical angle; the square in the map removes the root there.

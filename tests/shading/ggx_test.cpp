@@ -119,7 +119,8 @@ TEST(Ggx, SampledNormalsFollowTheirDensity) {
         for (int i = 0; i < points; ++i) {
             for (int k = 0; k < points; ++k) {
                 const vec3 h = direction((i + 0.5f) / points, 2 * pi * (k + 0.5f) / points);
-                integrated += test(h) * (ggx_visible_normal_pdf(wo, h, alpha) * 2 * std::numbers::pi / (points * points));
+                integrated +=
+                    test(h) * (ggx_visible_normal_pdf(wo, h, alpha) * 2 * std::numbers::pi / (points * points));
             }
         }
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(sampled[c], integrated[c], 1e-3) << alpha << ' ' << c;

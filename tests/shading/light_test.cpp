@@ -59,7 +59,8 @@ TEST(Light, LambertianPointSourceLightsTheFloorAsCie171Says) {
     light.position = vec3(0, 3, 0);
     light.axis = vec3(0, -1, 0);
     light.intensity = vec3(1000);
-    const float points[][3] = {{0, 0, 111.11f}, {0.5f, 0, 105.21f}, {1, 0, 90.02f}, {1.5f, 0.5f, 68.06f}, {1.5f, 1.5f, 49.39f}};
+    const float points[][3] = {
+        {0, 0, 111.11f}, {0.5f, 0, 105.21f}, {1, 0, 90.02f}, {1.5f, 0.5f, 68.06f}, {1.5f, 1.5f, 49.39f}};
     for (const auto& p : points) {
         const LightSample sample = light_sample(light, vec3(p[0], 0, p[1]), vec2(0.5f));
         EXPECT_TRUE(sample.is_delta);

@@ -44,9 +44,9 @@ MaterialData plain_material() {
     m.normal_scale = 1;
     m.bump_scale_m = 0.01f;
     m.occlusion_strength = 1;
-    m.base_color_texture = m.orm_texture = m.occlusion_texture = m.normal_texture = m.bump_texture = m.emission_texture =
-        m.transmission_texture = m.specular_texture = m.specular_color_texture = m.clearcoat_texture =
-            m.clearcoat_roughness_texture = no_texture_ref();
+    m.base_color_texture = m.orm_texture = m.occlusion_texture = m.normal_texture = m.bump_texture =
+        m.emission_texture = m.transmission_texture = m.specular_texture = m.specular_color_texture =
+            m.clearcoat_texture = m.clearcoat_roughness_texture = no_texture_ref();
     return m;
 }
 
@@ -134,15 +134,18 @@ TEST(MaterialEval, BumpMapTiltsTheNormalByTheSlopeOfTheHeight) {
     MaterialData m = plain_material();
     m.bump_texture = texture_ref(7);
     const vec3 n(0, 0, 1), expected = normalize(vec3(-0.1f, 0, 1));
-    const vec3 result = fetches.material_normal_at(m, vec2(0.25f), vec2(0), n, vec4(1, 0, 0, 1), vec3(0.1f, 0, 0), vec3(0, 0.1f, 0));
+    const vec3 result =
+        fetches.material_normal_at(m, vec2(0.25f), vec2(0), n, vec4(1, 0, 0, 1), vec3(0.1f, 0, 0), vec3(0, 0.1f, 0));
     EXPECT_LT(length(result - expected), 1e-4f);
     // Mirrored texture coordinates keep the height upward.
-    EXPECT_LT(length(perturb_bump(n, vec3(-0.1f, 0, 0), vec3(0, 0.1f, 0), 0.01f, 0) - normalize(vec3(0.1f, 0, 1))), 1e-6f);
+    EXPECT_LT(length(perturb_bump(n, vec3(-0.1f, 0, 0), vec3(0, 0.1f, 0), 0.01f, 0) - normalize(vec3(0.1f, 0, 1))),
+              1e-6f);
 }
 
 TEST(MaterialEval, DerivativesFollowTheTexturesAxes) {
     vec3 dp_du, dp_dv;
-    ASSERT_TRUE(triangle_derivatives(vec3(0), vec3(2, 0, 0), vec3(0, 0, 3), vec2(0), vec2(1, 0), vec2(0, 0.5f), dp_du, dp_dv));
+    ASSERT_TRUE(
+        triangle_derivatives(vec3(0), vec3(2, 0, 0), vec3(0, 0, 3), vec2(0), vec2(1, 0), vec2(0, 0.5f), dp_du, dp_dv));
     EXPECT_LT(length(dp_du - vec3(2, 0, 0)), 1e-6f);
     EXPECT_LT(length(dp_dv - vec3(0, 0, 6)), 1e-6f);
     EXPECT_FALSE(triangle_derivatives(vec3(0), vec3(2, 0, 0), vec3(0, 0, 3), vec2(0), vec2(0), vec2(0), dp_du, dp_dv));

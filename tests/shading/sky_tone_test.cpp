@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "quadrature_points.h"
-#include "shading/octahedral.h"
 #include "shading/environment.h"
+#include "shading/octahedral.h"
 #include "shading/random.h"
 #include "shading/sky.h"
 #include "shading/tone.h"
@@ -14,7 +14,9 @@ namespace {
 
 constexpr float half_pi = 1.57079633f;
 
-void expect_near(vec3 a, vec3 b, float tolerance) { EXPECT_LT(length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z; }
+void expect_near(vec3 a, vec3 b, float tolerance) {
+    EXPECT_LT(length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
+}
 
 TEST(Sky, AzimuthRunsClockwiseFromNorthWhichIsMinusZ) {
     expect_near(direction_from_azimuth(0, 0, 0), vec3(0, 0, -1), 1e-6f);

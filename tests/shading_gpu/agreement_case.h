@@ -109,7 +109,8 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
     }
     if (k == 14u) {
         Frame frame = frame_from_normal(wo);
-        return vec4(perturb_bump(wo, frame.tangent + wo * 0.1f, frame.bitangent * v.w, v.x, v.y), sample_disk(vec2(v)).x);
+        return vec4(perturb_bump(wo, frame.tangent + wo * 0.1f, frame.bitangent * v.w, v.x, v.y),
+                    sample_disk(vec2(v)).x);
     }
     return v;
 }
