@@ -7,7 +7,7 @@ namespace heliodon::import::gltf {
 namespace {
 
 struct Notes {
-    bool weights = false, pointers = false;
+    bool weights = false, others = false;
 };
 
 /// One channel, or nothing where it drives what is not read.
@@ -21,7 +21,7 @@ std::optional<AnimationChannel> read_channel(const Document& document, const tin
     else if (source.target_path == "scale") channel.property = AnimatedProperty::node_scale;
     else {
         notes.weights |= source.target_path == "weights";
-        notes.pointers |= source.target_path != "weights";
+        notes.others |= source.target_path != "weights";
         return std::nullopt;
     }
     // A channel without a node is to be ignored (glTF 2.0, section 3.11).
@@ -66,9 +66,11 @@ std::vector<AnimationDraft> read_animations(const Document& document, const tiny
             draft.target_nodes.push_back(std::size_t(source.channels[c].target_node));
         }
         drafts.push_back(std::move(draft));
+        // tinygltf leaves out channels without a node, such as KHR_animation_pointer's.
+        notes.others |= source.channels.size() < document.json()["animations"][i]["channels"].size();
     }
     if (notes.weights) warnings.push_back({document.path().string(), "ignores animated morph weights"});
-    if (notes.pointers)
+    if (notes.others)
         warnings.push_back({document.path().string(), "ignores animations of anything but nodes' translation, rotation and scale"});
     return drafts;
 }

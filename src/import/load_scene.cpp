@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "import/import.h"
@@ -103,7 +104,7 @@ Camera framing_camera(const Bounds& bounds) {
 
 void make_presentable(Scene& scene, const std::string& where, bool is_model, Warnings& warnings) {
     const bool bring_camera = scene.cameras().size() == 0;
-    if (is_model && !has_lights(scene)) {
+    if (is_model && !has_lights(scene) && scene.sky().model == SkyModel::none) {
         // The horizontal illuminance of an overcast day that daylight factors are customarily turned into lux with.
         constexpr double overcast_lux = 10000;
         Sky sky;
@@ -150,6 +151,19 @@ void make_missing_tangents(Scene& scene) {
     }
 }
 
+Result<Scene> model_alone(const std::filesystem::path& path, Warnings& warnings) {
+    Scene scene;
+    const Result<NodeId> root = import_model(scene, {}, path, warnings);
+    if (!root) return tl::unexpected(root.error());
+    return scene;
+}
+
+/// The scene file that would hold the model alone, so that its fields can be overridden.
+Result<Scene> model_with_overrides(const std::filesystem::path& path, std::span<const Override> overrides, Warnings& warnings) {
+    const nlohmann::json text = {{"heliodon", 1}, {"nodes", {{{"name", path.stem().string()}, {"mesh", path.filename().string()}}}}};
+    return parse_scene(text.dump(), path.string(), path.parent_path(), overrides, scene_file_readers(), warnings);
+}
+
 }  // namespace
 
 Result<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides, Warnings& warnings) {
@@ -160,12 +174,10 @@ Result<Scene> load_scene(const std::filesystem::path& path, std::span<const Over
         make_presentable(*scene, path.string(), false, warnings);
         return scene;
     }
-    if (!overrides.empty())
-        return fail(path.string(), fmt::format("--set {} needs a scene file; a model has no such fields", overrides[0].path));
-    Scene scene;
-    const Result<NodeId> root = import_model(scene, {}, path, warnings);
-    if (!root) return tl::unexpected(root.error());
-    make_presentable(scene, path.string(), true, warnings);
+    Result<Scene> scene = overrides.empty() ? model_alone(path, warnings) : model_with_overrides(path, overrides, warnings);
+    if (!scene) return scene;
+    make_missing_tangents(*scene);
+    make_presentable(*scene, path.string(), true, warnings);
     return scene;
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <unordered_map>
 
 #include "import/import.h"
@@ -96,15 +97,14 @@ std::vector<glm::vec3> corner_normals(const Mesh& mesh, float crease_rad) {
     // Comparing every pair costs the square of the faces at a place; past this many they are all averaged.
     constexpr std::uint32_t most_compared = 2048;
     for (std::uint32_t p = 0; p < place_count; ++p) {
-        const bool compare = at.begin[p + 1] - at.begin[p] <= most_compared;
-        for (std::uint32_t i = at.begin[p]; i < at.begin[p + 1]; ++i) {
-            const std::uint32_t corner = at.corners[i];
-            glm::vec3 sum(0);
-            for (std::uint32_t j = at.begin[p]; j < at.begin[p + 1]; ++j) {
-                const std::uint32_t other = at.corners[j];
-                if (!compare || glm::dot(faces[corner / 3], faces[other / 3]) >= least_cosine)
-                    sum += angles[other] * faces[other / 3];
-            }
+        const std::span<const std::uint32_t> corners(at.corners.data() + at.begin[p], at.begin[p + 1] - at.begin[p]);
+        const bool compare = corners.size() <= most_compared;
+        glm::vec3 all(0);
+        for (const std::uint32_t other : corners) all += angles[other] * faces[other / 3];
+        for (const std::uint32_t corner : corners) {
+            glm::vec3 sum = compare ? glm::vec3(0) : all;
+            for (std::size_t j = 0; compare && j < corners.size(); ++j)
+                if (glm::dot(faces[corner / 3], faces[corners[j] / 3]) >= least_cosine) sum += angles[corners[j]] * faces[corners[j] / 3];
             normals[corner] = normalized_or(sum, faces[corner / 3]);
         }
     }

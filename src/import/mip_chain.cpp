@@ -131,7 +131,8 @@ float coverage_scale(const LinearLevel& level, float cutoff, double wanted) {
         const float middle = 0.5f * (low + high);
         (coverage(level, cutoff, middle) < wanted ? low : high) = middle;
     }
-    return 0.5f * (low + high);
+    // Coverage steps where texels have equal alpha; the nearer side of the step is taken.
+    return wanted - coverage(level, cutoff, low) < coverage(level, cutoff, high) - wanted ? low : high;
 }
 
 bool all_opaque(const Texture& texture) {

@@ -56,6 +56,7 @@ public:
         callback.usemtl_cb = [](void* self, const char* name, int) { of(self).use_material(name); };
         callback.object_cb = [](void* self, const char* name) { of(self).begin_object(name); };
         std::istream stream(&lines);
+        stream.exceptions(std::ios::badbit);  // what a line is refused for passes through the stream
         std::string warning, error;
         tinyobj::LoadObjWithCallback(stream, callback, this, &materials_, &warning, &error);
         lines_ = nullptr;

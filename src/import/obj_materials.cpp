@@ -96,6 +96,7 @@ bool MtlReader::operator()(const std::string& file, std::vector<tinyobj::materia
                 refuse(where, fmt::format("expected a finite number, found \"{}\"", words[i]));
     });
     std::istream stream(&lines);
+    stream.exceptions(std::ios::badbit);  // what a line is refused for passes through the stream
     const std::size_t before = materials->size();
     std::string warning, error;
     tinyobj::LoadMtl(numbers, materials, &stream, &warning, &error);
