@@ -1,6 +1,6 @@
 // Adds a pass of its own to a frame graph: custom_pass IN.exr OUT.exr reduces a picture to bands of luminance.
-#include <cstdio>
 #include <heliodon/heliodon.h>
+#include <cstdio>
 
 #include "gpu/device.h"
 #include "gpu/pipeline.h"
@@ -48,7 +48,8 @@ Result<Picture> run(const Picture& picture) {
     std::vector<glm::vec4> texels;
     for (int y = 0; y < picture.image.height; ++y)
         for (int x = 0; x < picture.image.width; ++x) texels.emplace_back(picture.image.rgb(x, y), 1.0f);
-    if (auto sent = (*device)->upload(*radiance, std::as_bytes(std::span(texels))); !sent) return tl::unexpected(sent.error());
+    if (auto sent = (*device)->upload(*radiance, std::as_bytes(std::span(texels))); !sent)
+        return tl::unexpected(sent.error());
 
     graph::Graph frame;
     const graph::ImageHandle input = frame.import_image(description);
@@ -79,9 +80,8 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: custom_pass IN.exr OUT.exr\n");
         return 2;
     }
-    const auto written = read_picture(argv[1]).and_then(run).and_then([&](const Picture& picture) {
-        return write_picture(argv[2], picture);
-    });
+    const auto written = read_picture(argv[1]).and_then(run).and_then(
+        [&](const Picture& picture) { return write_picture(argv[2], picture); });
     if (!written) {
         std::fprintf(stderr, "%s\n", written.error().text().c_str());
         return 1;

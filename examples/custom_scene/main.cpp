@@ -1,6 +1,6 @@
 // Builds a scene in code, renders it with both engines and says how far they are apart.
-#include <cstdio>
 #include <heliodon/heliodon.h>
+#include <cstdio>
 
 using namespace heliodon;
 
@@ -83,8 +83,10 @@ int main() {
     if (!reference) return complain(reference.error());
     const auto picture = render_in_real_time(scene, camera, 256);
     if (!picture) return complain(picture.error());
-    if (const auto written = write_picture("custom_scene-path.exr", *reference); !written) return complain(written.error());
-    if (const auto written = write_picture("custom_scene-realtime.exr", *picture); !written) return complain(written.error());
+    if (const auto written = write_picture("custom_scene-path.exr", *reference); !written)
+        return complain(written.error());
+    if (const auto written = write_picture("custom_scene-realtime.exr", *picture); !written)
+        return complain(written.error());
 
     const auto error = compare(reference->image, picture->image, camera.ev100());
     if (!error) return complain(error.error());

@@ -69,8 +69,10 @@ protected:
         const std::filesystem::path output = folder_.string() + ".out", error = folder_.string() + ".err";
         std::string command = "cd " + quoted(folder_.string()) + " && " + quoted(HELIODON_PROGRAM);
         for (const std::string& argument : arguments) command += " " + quoted(argument);
-        const int status = std::system((command + " >" + quoted(output.string()) + " 2>" + quoted(error.string())).c_str());
-        Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(output), read_text(error)};
+        const int status =
+            std::system((command + " >" + quoted(output.string()) + " 2>" + quoted(error.string())).c_str());
+        Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(output),
+                    read_text(error)};
         std::filesystem::remove(output);
         std::filesystem::remove(error);
         return ended;

@@ -64,7 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongUsage{"Exposure", render_with({"--ev100", "bright"}), "\"bright\""},
                     WrongUsage{"AutomaticExposure", render_with({"--ev100", "auto"}), "automatic"},
                     WrongUsage{"Aov", render_with({"--aov", "albedo,beauty"}), "\"beauty\""},
-                    WrongUsage{"AovWithoutExr", {"render", "s.heliodon.json", "-o", "o.png", "--aov", "albedo"}, "--aov"},
+                    WrongUsage{
+                        "AovWithoutExr", {"render", "s.heliodon.json", "-o", "o.png", "--aov", "albedo"}, "--aov"},
                     WrongUsage{"SamplesZero", render_with({"--engine", "path", "--spp", "0"}), "--spp"},
                     WrongUsage{"DepthForRealtime", render_with({"--max-depth", "3"}), "--max-depth"},
                     WrongUsage{"Frames", render_with({"--frames", "9..3"}), "9..3"},

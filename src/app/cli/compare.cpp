@@ -62,15 +62,20 @@ Result<void> compare_pictures(const CompareOptions& options) {
     const float ev100 = options.ev100 ? *options.ev100 : stored.value_or(std::log2(1.0f / 1.2f));
     auto metrics = compare(*reference, *test, ev100);
     if (!metrics) return fail(options.test, metrics.error().text());
-    if (!known) report_warnings({{options.reference, "stores no ev100: its values are compared as they stand (see --ev100)"}});
+    if (!known)
+        report_warnings({{options.reference, "stores no ev100: its values are compared as they stand (see --ev100)"}});
     if (!options.heatmap.empty())
         if (auto written = write_heatmap(options.heatmap, *reference, *test, ev100); !written) return written;
 
     const std::pair<const char*, double> rows[] = {
-        {"mse", metrics->mse},   {"rmse", metrics->rmse},
-        {"relmse", metrics->relmse}, {"mae", metrics->mae},
-        {"median_relative", metrics->median_relative}, {"psnr", metrics->psnr},
-        {"ssim", metrics->ssim}, {"flip", metrics->flip},
+        {"mse", metrics->mse},
+        {"rmse", metrics->rmse},
+        {"relmse", metrics->relmse},
+        {"mae", metrics->mae},
+        {"median_relative", metrics->median_relative},
+        {"psnr", metrics->psnr},
+        {"ssim", metrics->ssim},
+        {"flip", metrics->flip},
     };
     nlohmann::ordered_json values;
     std::string table;

@@ -32,8 +32,9 @@ std::string as_json(const std::vector<DeviceInfo>& devices) {
 std::string as_text(const std::vector<DeviceInfo>& devices) {
     std::string text;
     for (const DeviceInfo& d : devices) {
-        text += fmt::format("{}  {} ({}, Vulkan {}, {:.1f} GiB{})\n", d.number, d.name, d.driver, d.api_version,
-                            static_cast<double>(d.memory_bytes) / (1024.0 * 1024.0 * 1024.0), d.is_cpu ? ", a CPU" : "");
+        text +=
+            fmt::format("{}  {} ({}, Vulkan {}, {:.1f} GiB{})\n", d.number, d.name, d.driver, d.api_version,
+                        static_cast<double>(d.memory_bytes) / (1024.0 * 1024.0 * 1024.0), d.is_cpu ? ", a CPU" : "");
         if (!d.usable) text += fmt::format("   not usable: {}\n", d.missing);
         const auto yes_no = [](bool has) { return has ? "yes" : "no"; };
         text += fmt::format("   ray query {}, ray tracing pipeline {}, mesh shader {}, conservative rasterization {}\n",

@@ -19,7 +19,9 @@ struct InfoOptions {
     bool json = false;
 };
 
-ordered_json vector_json(glm::vec3 v) { return {v.x, v.y, v.z}; }
+ordered_json vector_json(glm::vec3 v) {
+    return {v.x, v.y, v.z};
+}
 
 ordered_json light_json(const Node& node) {
     const Light& light = *node.light;
@@ -44,7 +46,8 @@ ordered_json describe(const Scene& scene, const Warnings& warnings) {
     scene.nodes().each([&](NodeId, const Node& node) {
         parts += node.parts.size();
         for (const Part& part : node.parts)
-            if (const Geometry* geometry = scene.geometries().find(part.geometry)) triangles += geometry->mesh.triangle_count();
+            if (const Geometry* geometry = scene.geometries().find(part.geometry))
+                triangles += geometry->mesh.triangle_count();
         if (node.light) lights.push_back(light_json(node));
     });
     scene.cameras().each([&](CameraId, const Camera& camera) {
@@ -53,14 +56,15 @@ ordered_json describe(const Scene& scene, const Warnings& warnings) {
     scene.sensors().each([&](SensorId, const Sensor& sensor) { sensors.push_back(sensor.name); });
 
     ordered_json report = {
-        {"nodes", scene.nodes().size()},         {"drawn_parts", parts},
-        {"meshes", scene.geometries().size()},   {"triangles", triangles},
-        {"materials", scene.materials().size()}, {"textures", scene.textures().size()},
+        {"nodes", scene.nodes().size()},           {"drawn_parts", parts},
+        {"meshes", scene.geometries().size()},     {"triangles", triangles},
+        {"materials", scene.materials().size()},   {"textures", scene.textures().size()},
         {"animations", scene.animations().size()}, {"duration_s", scene.animation_duration_s()},
     };
     const Bounds bounds = scene.bounds();
-    report["bounds_m"] = bounds.empty() ? ordered_json()
-                                        : ordered_json{{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
+    report["bounds_m"] = bounds.empty()
+                             ? ordered_json()
+                             : ordered_json{{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
     report["geometry_bytes"] = geometry_bytes;
     report["texture_bytes"] = texture_bytes;
     report["peak_rss_bytes"] = peak_rss_bytes();
@@ -72,6 +76,10 @@ ordered_json describe(const Scene& scene, const Warnings& warnings) {
     return report;
 }
 
+std::string vector_text(const ordered_json& v) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+}
+
 std::string mebibytes(const ordered_json& bytes) {
     return fmt::format("{:.1f} MiB", bytes.get<double>() / (1024.0 * 1024.0));
 }
@@ -81,19 +89,24 @@ std::string as_text(const ordered_json& report) {
     for (const char* key : {"nodes", "drawn_parts", "meshes", "triangles", "materials", "textures", "animations"})
         text += fmt::format("{:<16}{}\n", key, report[key].get<std::size_t>());
     const auto& bounds = report["bounds_m"];
-    text += fmt::format("{:<16}{}\n", "bounds", bounds.is_null() ? "nothing visible" : bounds["min"].dump() + " to " + bounds["max"].dump() + " m");
+    text += fmt::format(
+        "{:<16}{}\n", "bounds",
+        bounds.is_null() ? "nothing visible" : vector_text(bounds["min"]) + " to " + vector_text(bounds["max"]) + " m");
     text += fmt::format("{:<16}{} geometry, {} textures, {} peak\n", "memory", mebibytes(report["geometry_bytes"]),
                         mebibytes(report["texture_bytes"]), mebibytes(report["peak_rss_bytes"]));
     for (const auto& camera : report["cameras"])
-        text += fmt::format("{:<16}{}, EV100 {:.2f}\n", "camera", camera["name"].get<std::string>(), camera["ev100"].get<double>());
+        text += fmt::format("{:<16}{}, EV100 {:.2f}\n", "camera", camera["name"].get<std::string>(),
+                            camera["ev100"].get<double>());
     for (const auto& light : report["lights"]) {
-        text += fmt::format("{:<16}{}, {}, ", "light", light["name"].get<std::string>(), light["type"].get<std::string>());
-        text += light.contains("flux_lm")
-                    ? fmt::format("{:.4g} lm, {} cd\n", light["flux_lm"].get<double>(), light["intensity_cd"].dump())
-                    : fmt::format("{} lux\n", light["illuminance_lux"].dump());
+        text +=
+            fmt::format("{:<16}{}, {}, ", "light", light["name"].get<std::string>(), light["type"].get<std::string>());
+        text += light.contains("flux_lm") ? fmt::format("{:.4g} lm, {} cd\n", light["flux_lm"].get<double>(),
+                                                        vector_text(light["intensity_cd"]))
+                                          : fmt::format("{} lux\n", vector_text(light["illuminance_lux"]));
     }
     for (const auto& sensor : report["sensors"]) text += fmt::format("{:<16}{}\n", "sensor", sensor.get<std::string>());
-    for (const auto& warning : report["warnings"]) text += fmt::format("{:<16}{}\n", "approximated", warning.get<std::string>());
+    for (const auto& warning : report["warnings"])
+        text += fmt::format("{:<16}{}\n", "approximated", warning.get<std::string>());
     return text;
 }
 

@@ -40,7 +40,8 @@ Result<Readings> measure_with_paths(const Scene& scene, const MeasureOptions& op
 }
 
 Result<Readings> measure_in_real_time(const Scene& scene, const MeasureOptions& options) {
-    if (options.max_depth > 1) throw CLI::ValidationError("--max-depth", "the real-time engine measures direct light: expected 1");
+    if (options.max_depth > 1)
+        throw CLI::ValidationError("--max-depth", "the real-time engine measures direct light: expected 1");
     auto renderer = RealtimeRenderer::create(options.device);
     if (!renderer) return tl::unexpected(renderer.error());
     if (auto updated = renderer->update(scene); !updated) return tl::unexpected(updated.error());
@@ -50,8 +51,12 @@ Result<Readings> measure_in_real_time(const Scene& scene, const MeasureOptions& 
     return renderer->measure(scene, realtime);
 }
 
-const char* type_name(SensorType type) { return type == SensorType::illuminance ? "illuminance" : "luminance"; }
-const char* unit(SensorType type) { return type == SensorType::illuminance ? "lux" : "cd/m2"; }
+const char* type_name(SensorType type) {
+    return type == SensorType::illuminance ? "illuminance" : "luminance";
+}
+const char* unit(SensorType type) {
+    return type == SensorType::illuminance ? "lux" : "cd/m2";
+}
 
 std::string as_json(const Readings& readings) {
     nlohmann::json sensors = nlohmann::json::array();
@@ -76,8 +81,8 @@ std::string csv_field(const std::string& text) {
 std::string as_csv(const Readings& readings) {
     std::string text = "name,type,value,r,g,b,unit,half_width_95\n";
     for (const SensorReading& r : readings)
-        text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.4g}\n", csv_field(r.name), type_name(r.type), r.value, r.rgb.x,
-                            r.rgb.y, r.rgb.z, unit(r.type), r.half_width_95);
+        text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.4g}\n", csv_field(r.name), type_name(r.type),
+                            r.value, r.rgb.x, r.rgb.y, r.rgb.z, unit(r.type), r.half_width_95);
     return text;
 }
 
@@ -85,7 +90,8 @@ Result<void> measure(const MeasureOptions& options) {
     auto scene = load(options.scene);
     if (!scene) return tl::unexpected(scene.error());
     if (scene->sensors().size() == 0) return fail(options.scene.path, "expected sensors to measure, found none");
-    auto readings = options.engine == Engine::path ? measure_with_paths(*scene, options) : measure_in_real_time(*scene, options);
+    auto readings =
+        options.engine == Engine::path ? measure_with_paths(*scene, options) : measure_in_real_time(*scene, options);
     if (interrupted()) return fail("", "interrupted");
     if (!readings) return tl::unexpected(readings.error());
     print(options.json ? as_json(*readings) : as_csv(*readings));
@@ -100,12 +106,14 @@ Action declare_measure(CLI::App& command) {
     command.add_option_function<std::string>(
         "--engine", [options = options.get()](const std::string& text) { options->engine = read_engine(text); },
         "path (default) or realtime (direct light and sky)");
-    command.add_option("--spp", options->samples, "Path engine: samples a sensor; default 4096")->check(CLI::PositiveNumber);
+    command.add_option("--spp", options->samples, "Path engine: samples a sensor; default 4096")
+        ->check(CLI::PositiveNumber);
     command.add_option("--max-depth", options->max_depth, "Scattering events, 1 = direct light; default unlimited")
         ->check(CLI::NonNegativeNumber);
     command.add_option("--seed", options->seed, "Seed of the samples")->check(CLI::NonNegativeNumber);
     command.add_flag("--no-environment", options->no_environment, "The sky gives no light");
-    command.add_option("--device", options->device.device, "Real-time engine: Vulkan device, by number or part of its name");
+    command.add_option("--device", options->device.device,
+                       "Real-time engine: Vulkan device, by number or part of its name");
     command.add_flag("--json", options->json, "Print JSON instead of CSV");
     return [options] { return measure(*options); };
 }

@@ -64,7 +64,8 @@ std::vector<std::string> read_aovs(const std::string& text) {
 }
 
 float read_ev100(const std::string& text) {
-    if (text == "auto") throw CLI::ValidationError("--ev100", "this version has no automatic exposure: expected a number");
+    if (text == "auto")
+        throw CLI::ValidationError("--ev100", "this version has no automatic exposure: expected a number");
     const auto value = read_number<float>(text);
     if (!value || !std::isfinite(*value)) refuse("--ev100", "a number", text);
     return *value;

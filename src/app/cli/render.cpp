@@ -53,7 +53,8 @@ struct Rendered {
 class Renderer {
 public:
     virtual ~Renderer() = default;
-    [[nodiscard]] virtual Result<Rendered> render(const Scene& scene, const Camera& camera, const Progress& progress) = 0;
+    [[nodiscard]] virtual Result<Rendered> render(const Scene& scene, const Camera& camera,
+                                                  const Progress& progress) = 0;
 };
 
 class PathRenderer final : public Renderer {
@@ -137,23 +138,25 @@ Result<std::unique_ptr<Renderer>> create_renderer(const RenderOptions& options) 
 
 std::vector<std::string> frame_outputs(const RenderOptions& options, int frame) {
     std::vector<std::string> paths;
-    for (const std::string& path : options.outputs)
-        paths.push_back(options.frames ? numbered_path(path, frame) : path);
+    for (const std::string& path : options.outputs) paths.push_back(options.frames ? numbered_path(path, frame) : path);
     return paths;
 }
 
 /// Option values that are each right but do not go together.
 void check_together(const RenderOptions& options) {
-    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(),
-                                     [](const std::string& path) { return CLI::detail::to_lower(path).ends_with(".exr"); });
-    if (!options.aovs.empty() && !has_exr) throw CLI::ValidationError("--aov", "expected an .exr output to hold the layers");
+    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
+        return CLI::detail::to_lower(path).ends_with(".exr");
+    });
+    if (!options.aovs.empty() && !has_exr)
+        throw CLI::ValidationError("--aov", "expected an .exr output to hold the layers");
     if (options.engine == Engine::realtime && (options.seconds || options.max_depth != 0))
         throw CLI::ValidationError(options.seconds ? "--seconds" : "--max-depth", "expected with --engine path");
     if (options.engine == Engine::path && options.frames_timed > 0)
         throw CLI::ValidationError("--frames-timed", "expected with --engine realtime");
 }
 
-Result<void> render_frame(Renderer& renderer, const Scene& scene, const RenderOptions& options, int frame, json& statistics) {
+Result<void> render_frame(Renderer& renderer, const Scene& scene, const RenderOptions& options, int frame,
+                          json& statistics) {
     auto camera = choose_camera(scene, options.scene, options.camera);
     if (!camera) return tl::unexpected(camera.error());
     if (options.ev100) camera->ev100_override = options.ev100;
@@ -187,7 +190,8 @@ Result<void> render(const RenderOptions& options) {
     if (!scene) return tl::unexpected(scene.error());
     const std::string& gi = scene->render_settings().gi;
     if (options.engine == Engine::realtime && !options.gi_given && gi != "none")
-        report_warnings({{options.scene.path, "render.gi \"" + gi + "\" is not in this version: rendering direct light"}});
+        report_warnings(
+            {{options.scene.path, "render.gi \"" + gi + "\" is not in this version: rendering direct light"}});
     auto renderer = create_renderer(options);
     if (!renderer) return tl::unexpected(renderer.error());
 
@@ -203,22 +207,29 @@ Result<void> render(const RenderOptions& options) {
 
 void declare_engine_options(CLI::App& command, RenderOptions& options) {
     using Text = const std::string&;
-    command.add_option_function<std::string>("--engine", [&](Text text) { options.engine = read_engine(text); },
-                                             "realtime (default) or path");
+    command.add_option_function<std::string>(
+        "--engine", [&](Text text) { options.engine = read_engine(text); }, "realtime (default) or path");
     command.add_option("--seed", options.seed, "Seed of the samples")->check(CLI::NonNegativeNumber);
     command.add_flag("--no-environment", options.no_environment, "The sky gives no light and is black");
     command.add_option_function<std::string>(
-        "--gi", [&](Text text) { check_gi(text), options.gi_given = true; }, "Global illumination: none (real-time engine)");
+        "--gi", [&](Text text) { check_gi(text), options.gi_given = true; },
+        "Global illumination: none (real-time engine)");
     command.add_option("--spp", options.samples, "Samples a pixel (real-time engine: frames averaged); default 64")
         ->check(CLI::PositiveNumber);
-    command.add_option("--seconds", options.seconds, "Path engine: stop after this long instead")->check(CLI::PositiveNumber);
-    command.add_option("--max-depth", options.max_depth, "Path engine: scattering events, 1 = direct light; default unlimited")
+    command.add_option("--seconds", options.seconds, "Path engine: stop after this long instead")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option("--max-depth", options.max_depth,
+                    "Path engine: scattering events, 1 = direct light; default unlimited")
         ->check(CLI::NonNegativeNumber);
-    command.add_option("--threads", options.threads, "Path engine: threads; default all cores")->check(CLI::PositiveNumber);
-    command.add_option("--device", options.device.device, "Real-time engine: Vulkan device, by number or part of its name");
+    command.add_option("--threads", options.threads, "Path engine: threads; default all cores")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--device", options.device.device,
+                       "Real-time engine: Vulkan device, by number or part of its name");
     command.add_flag("--validation", options.device.validation, "Real-time engine: with Vulkan's validation layer");
     command
-        .add_option("--shaders", options.device.shader_directory, "Real-time engine: compile the shaders of this directory")
+        .add_option("--shaders", options.device.shader_directory,
+                    "Real-time engine: compile the shaders of this directory")
         ->check(CLI::ExistingDirectory);
     command.add_option("--frames-timed", options.frames_timed, "Real-time engine: time so many frames after warm-up")
         ->check(CLI::PositiveNumber);
@@ -226,20 +237,26 @@ void declare_engine_options(CLI::App& command, RenderOptions& options) {
 
 void declare_picture_options(CLI::App& command, RenderOptions& options) {
     using Text = const std::string&;
-    command.add_option("-o,--output", options.outputs, ".exr .hdr .pfm (measured values) .png .jpg (tone-mapped); may be repeated")
+    command
+        .add_option("-o,--output", options.outputs,
+                    ".exr .hdr .pfm (measured values) .png .jpg (tone-mapped); may be repeated")
         ->required()
         ->allow_extra_args(false);
-    command.add_option_function<std::string>("--size", [&](Text text) { options.size = read_size(text); },
-                                             "WIDTHxHEIGHT; default 1024x768");
+    command.add_option_function<std::string>(
+        "--size", [&](Text text) { options.size = read_size(text); }, "WIDTHxHEIGHT; default 1024x768");
     command.add_option("--camera", options.camera, "Name of the camera; default the first");
-    command.add_option_function<std::string>("--ev100", [&](Text text) { options.ev100 = read_ev100(text); },
-                                             "Exposure, instead of the camera's");
-    command.add_option_function<std::string>("--tonemap", [](Text text) { check_tonemap(text); }, "Tone curve: hable");
-    command.add_option_function<std::string>("--aov", [&](Text text) { options.aovs = read_aovs(text); },
-                                             "Extra EXR layers: albedo,normal,depth,position,direct,indirect");
-    command.add_option_function<std::string>("--frames", [&](Text text) { options.frames = read_frames(text); },
-                                             "FIRST..LAST of the animation, one numbered output each (### in its name)");
-    command.add_option("--fps", options.fps, "Frames a second of the animation; default 24")->check(CLI::PositiveNumber);
+    command.add_option_function<std::string>(
+        "--ev100", [&](Text text) { options.ev100 = read_ev100(text); }, "Exposure, instead of the camera's");
+    command.add_option_function<std::string>(
+        "--tonemap", [](Text text) { check_tonemap(text); }, "Tone curve: hable");
+    command.add_option_function<std::string>(
+        "--aov", [&](Text text) { options.aovs = read_aovs(text); },
+        "Extra EXR layers: albedo,normal,depth,position,direct,indirect");
+    command.add_option_function<std::string>(
+        "--frames", [&](Text text) { options.frames = read_frames(text); },
+        "FIRST..LAST of the animation, one numbered output each (### in its name)");
+    command.add_option("--fps", options.fps, "Frames a second of the animation; default 24")
+        ->check(CLI::PositiveNumber);
     command.add_option("--stats", options.stats, "Write the numbers of the run to this JSON file");
     command.add_flag("--json", options.json, "Print the numbers of the run as JSON");
 }

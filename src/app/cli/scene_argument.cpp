@@ -9,7 +9,8 @@ namespace heliodon::cli {
 
 CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument) {
     CLI::Option* scene =
-        command.add_option("SCENE", argument.path, "A scene file (*.heliodon.json) or a model (.obj, .gltf, .glb)")->required();
+        command.add_option("SCENE", argument.path, "A scene file (*.heliodon.json) or a model (.obj, .gltf, .glb)")
+            ->required();
     command
         .add_option("--set", argument.overrides,
                     "PATH=VALUE: override a field of the scene file (render.gi=none, nodes.bulb.light.flux_lm=900)")

@@ -36,13 +36,17 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-void report_error(const Error& error) { write_line(stderr, "heliodon: " + one_line(error.text())); }
+void report_error(const Error& error) {
+    write_line(stderr, "heliodon: " + one_line(error.text()));
+}
 
 void report_warnings(const Warnings& warnings) {
     for (const Error& warning : warnings) write_line(stderr, "heliodon: warning: " + one_line(warning.text()));
 }
 
-void say(const std::string& line) { write_line(stderr, line); }
+void say(const std::string& line) {
+    write_line(stderr, line);
+}
 
 void print(const std::string& text) {
     std::fputs(text.c_str(), stdout);
@@ -56,7 +60,9 @@ void catch_interrupt() {
     sigaction(SIGINT, &action, nullptr);
 }
 
-bool interrupted() { return interrupt_seen != 0; }
+bool interrupted() {
+    return interrupt_seen != 0;
+}
 
 struct ProgressBar::State {
     using Clock = std::chrono::steady_clock;
@@ -79,8 +85,8 @@ struct ProgressBar::State {
         const double elapsed = std::chrono::duration<double>(now - begin).count();
         const int filled = static_cast<int>(done * cells);
         const std::string left = done > 0 ? duration(elapsed * (1 - done) / done) + " left" : "";
-        const std::string line = fmt::format("\r{} [{:=<{}}{:<{}}] {:3.0f} % {}\x1b[K", label, "", filled, "", cells - filled,
-                                             100 * done, left);
+        const std::string line = fmt::format("\r{} [{:=<{}}{:<{}}] {:3.0f} % {}\x1b[K", label, "", filled, "",
+                                             cells - filled, 100 * done, left);
         std::fputs(line.c_str(), stderr);
         std::fflush(stderr);
     }

@@ -52,7 +52,9 @@ Action declare_view(CLI::App& command) {
         "WIDTHxHEIGHT of the window; default 1280x720");
     command.add_option("--camera", options->settings.camera, "Name of the camera to begin with; default the first");
     command.add_option("--device", options->settings.device, "Vulkan device, by number or part of its name");
-    command.add_option("--shaders", options->settings.shader_directory, "Compile the shaders of this directory; F5 reloads them")
+    command
+        .add_option("--shaders", options->settings.shader_directory,
+                    "Compile the shaders of this directory; F5 reloads them")
         ->check(CLI::ExistingDirectory);
     command.add_flag("--validation", options->settings.validation, "With Vulkan's validation layer");
     return [options] { return view(*options); };

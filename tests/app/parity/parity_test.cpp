@@ -18,14 +18,16 @@ protected:
     /// Renders `scene` in real time and compares it with the reference of that name.
     void measure(const std::filesystem::path& scene, const std::string& name) {
         const std::string size = full() ? "512x512" : "256x256";
-        std::filesystem::path reference = std::filesystem::path(HELIODON_SOURCE_DIR) / "tests/references" / (name + ".exr");
+        std::filesystem::path reference =
+            std::filesystem::path(HELIODON_SOURCE_DIR) / "tests/references" / (name + ".exr");
         if (full()) {
             reference = folder() / "path.exr";
             const Ended path = run({"render", scene.string(), "--engine", "path", "--max-depth", "1", "--spp", "1024",
                                     "--no-environment", "--size", size, "-o", "path.exr"});
             ASSERT_EQ(path.code, 0) << path.error;
         }
-        const Ended realtime = run({"render", scene.string(), "--gi", "none", "--no-environment", "--size", size, "-o", "realtime.exr"});
+        const Ended realtime =
+            run({"render", scene.string(), "--gi", "none", "--no-environment", "--size", size, "-o", "realtime.exr"});
         ASSERT_EQ(realtime.code, 0) << realtime.error;
         const Ended compared = run({"compare", reference.string(), "realtime.exr", "--json"});
         ASSERT_EQ(compared.code, 0) << compared.error;
@@ -33,7 +35,8 @@ protected:
         for (const char* metric : {"median_relative", "relmse", "flip"})
             RecordProperty(metric, std::to_string(metrics_[metric].get<double>()));
         std::printf("%s %s: median relative %.5f, relMSE %.6f, FLIP %.5f\n", name.c_str(), size.c_str(),
-                    metrics_["median_relative"].get<double>(), metrics_["relmse"].get<double>(), metrics_["flip"].get<double>());
+                    metrics_["median_relative"].get<double>(), metrics_["relmse"].get<double>(),
+                    metrics_["flip"].get<double>());
     }
     [[nodiscard]] double metric(const char* name) const { return metrics_.at(name).get<double>(); }
 
@@ -51,8 +54,8 @@ TEST_F(Parity, CornellBoxUnderAPointLight) {
 }
 
 TEST_F(Parity, CornellBoxUnderPointSpotAndDirectionalLights) {
-    ASSERT_NO_FATAL_FAILURE(
-        measure(std::filesystem::path(HELIODON_SOURCE_DIR) / "tests/scenes/three-lights.heliodon.json", "three-lights"));
+    ASSERT_NO_FATAL_FAILURE(measure(
+        std::filesystem::path(HELIODON_SOURCE_DIR) / "tests/scenes/three-lights.heliodon.json", "three-lights"));
     EXPECT_LE(metric("median_relative"), 0.005);
     EXPECT_LE(metric("relmse"), 0.005);
     EXPECT_LE(metric("flip"), 0.03);
