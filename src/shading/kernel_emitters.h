@@ -214,8 +214,8 @@ SHADING_FN KernelLightSample kernel_sample_surface(KernelEmitter emitter, vec3 f
     }
     result.light = kernel_emission(hit) / result.pdf;
     const float extent = emitter.kind == kernel_emitter_sphere ? length(emitter.origin - position) : 0.0f;
-    const vec3 error = (abs(emitter.origin) + abs(emitter.edge0) + abs(emitter.edge1) + vec3(extent)) * 2.4e-6f;
-    result.target = kernel_offset(position, error, normal, -result.direction);
+    const vec3 terms = abs(emitter.origin) + abs(emitter.edge0) + abs(emitter.edge1) + vec3(extent);
+    result.target = kernel_offset(position, kernel_error_bound(terms) * 2.0f, normal, -result.direction);
     return result;
 }
 

@@ -2,14 +2,16 @@
 #ifndef HELIODON_SHADING_KERNEL_SURFACE_H
 #define HELIODON_SHADING_KERNEL_SURFACE_H
 
-/// Rounding error of a point that is a weighted sum of object-space coordinates, transformed to the world:
-/// `extent` bounds the absolute terms that were summed (Pharr, Jakob & Humphreys 2016, section 3.9.4). The
-/// factor covers interpolation and transformation here (about 10 roundings of 2⁻²⁴) and the same again where
-/// the ray is taken back into object space.
+/// Bound on the rounding error of coordinates that are sums of `terms` in absolute value (Pharr, Jakob &
+/// Humphreys 2016, section 3.9.4). The first factor covers interpolation and transformation here (about 10
+/// roundings of 2⁻²⁴) and the same again where the ray is taken back into object space; the second keeps a
+/// surface through a coordinate plane, whose own terms vanish, from being met again at distance 0.
+SHADING_FN vec3 kernel_error_bound(vec3 terms) { return terms * 1.2e-6f + vec3(max_component(terms) * 2.4e-7f); }
+
+/// Of a weighted sum of object-space points, each within ±`extent`, transformed to the world.
 SHADING_FN vec3 kernel_position_error(mat4 object_to_world, vec3 extent) {
-    const vec3 terms = abs(vec3(object_to_world[0])) * extent.x + abs(vec3(object_to_world[1])) * extent.y +
-                       abs(vec3(object_to_world[2])) * extent.z + abs(vec3(object_to_world[3]));
-    return terms * 1.2e-6f;
+    return kernel_error_bound(abs(vec3(object_to_world[0])) * extent.x + abs(vec3(object_to_world[1])) * extent.y +
+                              abs(vec3(object_to_world[2])) * extent.z + abs(vec3(object_to_world[3])));
 }
 
 /// `position` moved off the surface to the side that `direction` points to, farther than its error reaches.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <tbb/blocked_range2d.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,7 +12,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
+#include <optional>
 
 namespace heliodon::trace {
 namespace {
@@ -100,6 +102,10 @@ PathResult follow_path(CpuKernel& kernel, const EmbreeScene& scene, shading::Pat
 }
 
 void run_on_threads(int threads, const std::function<void()>& work) {
+    // More threads than cores need leave to start.
+    std::optional<tbb::global_control> leave;
+    if (threads > tbb::info::default_concurrency())
+        leave.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     arena.execute([&] { work(); });
 }
