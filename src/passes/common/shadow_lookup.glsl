@@ -43,7 +43,8 @@ ReceiverPlane receiver_plane(ShadowViewData view, vec3 point, vec3 normal) {
 
 /// 1 where nothing stored at the texel stands before the receiver's plane.
 float shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, int size) {
-    const vec2 center = (vec2(texel) + 0.5f) * (2.0f / float(size)) - 1.0f;
+    // Rows run down from the top, where the second coordinate is +1.
+    const vec2 center = ((vec2(texel) + 0.5f) * (2.0f / float(size)) - 1.0f) * vec2(1.0f, -1.0f);
     const float stored = texelFetch(shadow_maps, ivec3(clamp(texel, ivec2(0), ivec2(size - 1)), int(view.layer)), 0).r;
     const float slope = abs(plane.gradient.x) + abs(plane.gradient.y);
     const float bias = slope * shadow_snap_texels * (2.0f / float(size)) +
@@ -60,15 +61,15 @@ float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode)
     const int size = textureSize(shadow_maps, 0).x;
     const ReceiverPlane plane = receiver_plane(view, point, normal);
     if (any(greaterThan(abs(plane.at), vec2(1.0f)))) return 1.0f;  // outside what the light's map covers
-    const vec2 position = (plane.at * 0.5f + 0.5f) * float(size);
+    const vec2 position = (plane.at * vec2(0.5f, -0.5f) + 0.5f) * float(size);
     if (filter_mode == shadow_filter_nearest) return shadow_tap(view, plane, ivec2(floor(position)), size);
     // Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels.
     const ivec2 first = ivec2(floor(position - 0.5f));
     const vec2 weight = position - 0.5f - vec2(first);
-    const float bottom = mix(shadow_tap(view, plane, first, size), shadow_tap(view, plane, first + ivec2(1, 0), size), weight.x);
-    const float top = mix(shadow_tap(view, plane, first + ivec2(0, 1), size),
+    const float upper = mix(shadow_tap(view, plane, first, size), shadow_tap(view, plane, first + ivec2(1, 0), size), weight.x);
+    const float lower = mix(shadow_tap(view, plane, first + ivec2(0, 1), size),
                           shadow_tap(view, plane, first + ivec2(1, 1), size), weight.x);
-    return mix(bottom, top, weight.y);
+    return mix(upper, lower, weight.y);
 }
 
 /// Face of a cube of views: +X −X +Y −Y +Z −Z, by the major axis.
