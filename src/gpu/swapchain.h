@@ -32,7 +32,7 @@ public:
 
     /// The next image; empty when the window is minimized or was resized: then call resize().
     [[nodiscard]] Result<std::optional<Frame>> acquire();
-    /// After the submission that signals `frame.finished`; false: the window was resized, call resize().
+    /// After the submission that waits for `frame.acquired` and signals `frame.finished`, before any other one. False: the window was resized, call resize().
     [[nodiscard]] Result<bool> present(const Frame& frame);
     [[nodiscard]] Result<void> resize(VkExtent2D extent);
     [[nodiscard]] VkExtent2D extent() const { return extent_; }
@@ -50,6 +50,7 @@ private:
     bool vsync_ = true;
     std::vector<Image> images_;
     std::vector<VkSemaphore> acquired_, finished_;
+    std::vector<std::uint64_t> uses_;  // by `acquired_`: the submission that waits for it
     std::size_t next_ = 0;
 };
 

@@ -26,6 +26,12 @@ struct CompiledPass {
     std::vector<Barrier> barriers;
 };
 
+/// How the frame leaves a resource that outlives it.
+struct FinalState {
+    std::uint32_t resource = 0;
+    gpu::Access state;
+};
+
 /// Where a transient resource lies.
 struct Placement {
     std::uint32_t resource = 0;
@@ -43,6 +49,7 @@ struct CompiledGraph {
     std::vector<CompiledPass> order;
     std::vector<std::uint32_t> culled;      ///< passes whose outputs nobody uses
     std::vector<Barrier> final_barriers;    ///< bring imported and persistent resources to one state for all their parts
+    std::vector<FinalState> final_states;   ///< how the frame leaves them
     std::vector<Placement> placements;      ///< of transient resources that live passes use
     std::vector<Heap> heaps;
     std::vector<Resource> resources;        ///< with the usage flags their uses need

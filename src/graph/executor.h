@@ -7,6 +7,7 @@
 
 #include "gpu/commands.h"
 #include "gpu/device.h"
+#include "gpu/memory_block.h"
 #include "gpu/timestamps.h"
 #include "graph/compiled_graph.h"
 
@@ -38,7 +39,6 @@ struct ExecutorSettings {
 class Executor {
 public:
     explicit Executor(gpu::Device& device, ExecutorSettings settings = {}) : device_(device), settings_(settings) {}
-    ~Executor();
     Executor(const Executor&) = delete;
     Executor& operator=(const Executor&) = delete;
 
@@ -50,39 +50,51 @@ public:
     /// Records one frame. Errors: an imported resource not bound; what passes report is kept by `commands`.
     [[nodiscard]] Result<void> execute(gpu::Commands& commands, gpu::Timestamps* timestamps = nullptr);
 
-    /// The real resource; exported, persistent and imported ones may be read after the frame.
+    /// The real resource; exported, persistent and imported ones may be read after the frame. After execute() a
+    /// history's `previous` is what this frame wrote as `current`.
     [[nodiscard]] const gpu::Image& image(ImageHandle handle) const;
     [[nodiscard]] const gpu::Buffer& buffer(BufferHandle handle) const;
-    [[nodiscard]] const CompiledGraph& compiled() const { return compiled_; }
+    [[nodiscard]] const CompiledGraph& compiled() const { return frame_.compiled; }
     [[nodiscard]] gpu::Device& device() const { return device_; }
     /// Fills persistent and history resources with zeros again before the next frame.
-    void reset_history() { clear_persistent_ = true; }
+    void reset_history();
 
 private:
-    struct PersistentImage;
-    struct PersistentBuffer;
-    struct HeapMemory;
+    /// A persistent resource and whether it still has to be filled with zeros.
+    struct PersistentImage {
+        gpu::Image image;
+        bool clear = true;
+    };
+    struct PersistentBuffer {
+        gpu::Buffer buffer;
+        bool clear = true;
+    };
     struct Slot {
         const gpu::Image* image = nullptr;
         const gpu::Buffer* buffer = nullptr;
     };
-    [[nodiscard]] Result<void> make_resources(const CompiledGraph& compiled);
-    void swap_history();
-    void clear_persistent(gpu::Commands& commands);
-    void poison(gpu::Commands& commands, std::uint32_t resource);
+    /// A compiled graph with all that belongs to it; persistent resources pass from one to the next.
+    struct Frame {
+        CompiledGraph compiled;
+        std::vector<gpu::MemoryBlock> heaps;  // before what lies in them: destroyed after it
+        std::vector<std::unique_ptr<gpu::Image>> images;
+        std::vector<std::unique_ptr<gpu::Buffer>> buffers;
+        std::map<std::string, std::shared_ptr<PersistentImage>> persistent_images;
+        std::map<std::string, std::shared_ptr<PersistentBuffer>> persistent_buffers;
+        std::vector<Slot> slots;  // by resource
+    };
+    [[nodiscard]] Result<void> make_transients(Frame& frame) const;
+    [[nodiscard]] Result<void> make_persistents(Frame& frame) const;
+    void clear_persistents(gpu::Commands& commands);
+    void poison(gpu::Commands& commands, std::uint32_t position);
     void record(gpu::Commands& commands, const std::vector<Barrier>& barriers);
-    void release_transients();
+    void swap_history();
 
     gpu::Device& device_;
     ExecutorSettings settings_;
-    CompiledGraph compiled_;
-    std::vector<Slot> slots_;  // by resource
-    std::vector<std::unique_ptr<gpu::Image>> transient_images_;
-    std::vector<std::unique_ptr<gpu::Buffer>> transient_buffers_;
-    std::map<std::string, std::unique_ptr<gpu::Image>> persistent_images_;
-    std::map<std::string, std::unique_ptr<gpu::Buffer>> persistent_buffers_;
-    std::vector<VmaAllocation_T*> heaps_;
-    bool clear_persistent_ = true;
+    Frame frame_;
+    std::vector<bool> poisoned_;                         // by resource, in this frame
+    std::vector<VkImageMemoryBarrier2> image_barriers_;  // kept to allocate nothing while recording
 };
 
 }  // namespace heliodon::graph

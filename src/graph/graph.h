@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,7 @@ struct Resource {
     bool is_image = true;
     Lifetime lifetime = Lifetime::transient;
     bool exported = false;
+    std::optional<Usage> final_usage;
     gpu::ImageDescription image;    ///< usage flags are added by the graph
     gpu::BufferDescription buffer;  ///< as above
     gpu::Access initial;            ///< imported: its state when the frame begins (Executor takes the real one)
@@ -100,9 +102,10 @@ public:
 
 private:
     friend class Graph;
-    explicit PassBuilder(class Graph& graph, std::uint32_t pass) : graph_(graph), pass_(pass) {}
-    void use(ImagePart image, Usage usage, bool reads, bool writes);
-    void use(BufferHandle buffer, Usage usage, bool reads, bool writes);
+    PassBuilder(class Graph& graph, std::uint32_t pass) : graph_(graph), pass_(pass) {}
+    PassBuilder& use(ImagePart image, Usage usage, bool reads, bool writes);
+    PassBuilder& use(BufferHandle buffer, Usage usage, bool reads, bool writes);
+    void declare(const ResourceUse& use);
 
     Graph& graph_;
     std::uint32_t pass_;
@@ -127,9 +130,10 @@ public:
     ImageHandle import_image(gpu::ImageDescription description, gpu::Access initial = {});
     BufferHandle import_buffer(gpu::BufferDescription description, gpu::Access initial = {});
 
-    /// The content is wanted after the frame (read back, say): its writers are not culled, and it does not alias.
-    void export_image(ImageHandle image);
-    void export_buffer(BufferHandle buffer);
+    /// The content is wanted after the frame (read back, say): its writers are not culled, it does not alias, and the
+    /// frame ends with it ready for `final_usage` (by default as its last pass left it).
+    void export_image(ImageHandle image, std::optional<Usage> final_usage = {});
+    void export_buffer(BufferHandle buffer, std::optional<Usage> final_usage = {});
 
     /// `setup` declares at once; `execute` is called each frame that the pass is not culled.
     PassHandle add_pass(std::string name, PassKind kind, const std::function<void(PassBuilder&)>& setup,
@@ -145,6 +149,7 @@ public:
 private:
     friend class PassBuilder;
     std::uint32_t add(Resource resource);
+    void add_error(const std::string& pass, std::string message);
 
     std::vector<Resource> resources_;
     std::vector<PassDeclaration> passes_;
