@@ -4,9 +4,13 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <numbers>
+#include <sstream>
 #include <tuple>
+
+#include "shared_data.h"
 
 namespace heliodon {
 namespace {
@@ -116,6 +120,31 @@ TEST(Teapot, StandsOnTheGroundOneMetreHighWithItsSpoutTowardsX) {
     EXPECT_NEAR(bounds.max.x, 3.434f / 3.15f, 0.01f);
     EXPECT_NEAR(bounds.min.z, -2.0f / 3.15f, 1e-3f);
     EXPECT_NEAR(bounds.max.z, 2.0f / 3.15f, 1e-3f);
+}
+
+// An independent tessellation of Newell's patches, ten cells a side, in his units: the same points exactly.
+TEST(Teapot, GoesThroughEveryVertexOfAnIndependentTessellation) {
+    const auto path = tests::shared_path("models/teapot.obj");
+    if (!path) GTEST_SKIP() << "without the shared data";
+    const Mesh mesh = teapot_mesh(10);
+    std::vector<glm::vec3> points(mesh.positions.begin(), mesh.positions.end());
+    std::ifstream file(*path);
+    int vertices = 0, faces = 0;
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string keyword;
+        words >> keyword;
+        faces += keyword == "f";
+        if (keyword != "v") continue;
+        glm::vec3 p;
+        words >> p.x >> p.y >> p.z;
+        ++vertices;
+        float nearest = 1e9f;
+        for (const glm::vec3 q : points) nearest = std::min(nearest, glm::distance(p / 3.15f, q));
+        ASSERT_LT(nearest, 2e-5f) << "vertex " << vertices << ": " << line;
+    }
+    EXPECT_GT(vertices, 3000);
+    EXPECT_EQ(static_cast<std::size_t>(faces), mesh.triangle_count());
 }
 
 TEST(Teapot, FacesOutwardWithSmoothNormalsAndTexturedTangents) {
