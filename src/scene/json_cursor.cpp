@@ -1,6 +1,7 @@
 #include "scene/json_cursor.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

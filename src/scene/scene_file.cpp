@@ -1,7 +1,9 @@
 #include "scene/scene_file.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -59,6 +61,7 @@ private:
     void read_node(const JsonCursor& cursor, NodeId parent);
     Transform read_transform(ObjectReader& object);
     void read_drawable(ObjectReader& object, NodeId id);
+    GeometryId shared_shape(const JsonCursor& cursor, const std::string& name);
     void load_textures();
     void load_sky_image();
     void load_models();
@@ -71,6 +74,7 @@ private:
     const SceneFileReaders& readers_;
     Warnings& warnings_;
     Scene scene_;
+    std::map<std::string, GeometryId> shapes_;  ///< by their text
     std::vector<TextureJob> texture_jobs_;
     std::vector<ModelJob> model_jobs_;
     std::filesystem::path sky_image_;
@@ -183,12 +187,18 @@ void Reader::read_drawable(ObjectReader& object, NodeId id) {
     }
     if (mesh) model_jobs_.push_back({id, resolve(mesh->file()), material_id, mesh->path()});
     if (!shape) return;
-    std::variant<Shape, Mesh> form = read_shape(*shape);
-    const std::string& name = scene_.nodes().find(id)->name;
-    const GeometryId geometry = std::holds_alternative<Shape>(form)
-                                    ? scene_.add_shape(std::get<Shape>(form), name)
-                                    : scene_.add_geometry({name, std::get<Mesh>(std::move(form)), std::nullopt, {}});
-    scene_.set_parts(id, {{geometry, material_id.value_or(MaterialId{})}});
+    scene_.set_parts(id, {{shared_shape(*shape, scene_.nodes().find(id)->name), material_id.value_or(MaterialId{})}});
+}
+
+/// Equal shapes share one geometry, so that ten thousand equal boxes cost one.
+GeometryId Reader::shared_shape(const JsonCursor& cursor, const std::string& name) {
+    const auto [known, is_new] = shapes_.try_emplace(cursor.json().dump(-1, ' ', false, Json::error_handler_t::replace));
+    if (!is_new) return known->second;
+    std::variant<Shape, Mesh> form = read_shape(cursor);
+    known->second = std::holds_alternative<Shape>(form)
+                        ? scene_.add_shape(std::get<Shape>(form), name)
+                        : scene_.add_geometry({name, std::get<Mesh>(std::move(form)), std::nullopt, {}});
+    return known->second;
 }
 
 void Reader::load_textures() {

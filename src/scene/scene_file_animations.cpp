@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+
 #include <array>
 
 #include "scene/scene_file_parts.h"

@@ -1,6 +1,7 @@
 #include "scene/scene_overrides.h"
 
 #include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <optional>

@@ -1,5 +1,7 @@
 #include "scene_file_fixture.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace heliodon::tests {
@@ -124,6 +126,18 @@ TEST(SceneFile, ReadsExactShapes) {
     EXPECT_EQ(std::get<Box>(*geometry("box").shape).max, glm::vec3(1, 2, 3));
     EXPECT_EQ(std::get<Sphere>(*geometry("sphere").shape).radius, 0.5f);
     EXPECT_EQ(geometry("sphere").bounds.max, glm::vec3(0.5f, 1, 0.5f));
+}
+
+TEST(SceneFile, TenThousandEqualShapesShareOneGeometry) {
+    std::string nodes;
+    for (int i = 0; i < 10'000; ++i)
+        nodes += fmt::format(
+            R"({}{{"translate": [{}, 0, 0], "shape": {{"type": "sphere", "center": [0,0,0], "radius": 1}}}})",
+            i == 0 ? "" : ",", i);
+    const Scene scene = parsed(R"({"heliodon": 1, "nodes": [)" + nodes + "]}");
+    EXPECT_EQ(scene.nodes().size(), 10'000u);
+    EXPECT_EQ(scene.geometries().size(), 1u);
+    EXPECT_EQ(scene.bounds().max.x, 10'000.0f);
 }
 
 TEST(SceneFile, BuildsProceduralShapes) {
@@ -387,6 +401,7 @@ TEST(SceneOverride, ErrorsNameTheOverride) {
               "--set nodes.ball.shape.radius=-1: expected a number above 0, found -1");
     EXPECT_EQ(error("nodes.ball.shape.radius", "1e999"),
               "--set nodes.ball.shape.radius=1e999: expected a number above 0, found \"1e999\"");
+    EXPECT_EQ(error("nodes.ball.shape.type", "\xff").substr(0, 30), "--set nodes.ball.shape.type=\xff: ") << "not UTF-8";
     EXPECT_EQ(error("cameras.main.position", "[1, up, 3]"),
               "--set cameras.main.position=[1, up, 3]: expected a list of 3 numbers, found \"[1, up, 3]\"");
     EXPECT_EQ(error("cameras.main.position", "[1, true, 3]"),
