@@ -15,6 +15,9 @@
 #include "heliodon_editor_shaders.h"
 #include "realtime/live.h"
 
+// GLFW declares it only where Vulkan's own header came first; volk's does not count.
+extern "C" PFN_vkVoidFunction glfwGetInstanceProcAddress(VkInstance, const char*);
+
 namespace heliodon::editor {
 namespace {
 
@@ -43,7 +46,12 @@ public:
 
 struct DestroySurface {
     VkInstance instance = VK_NULL_HANDLE;
-    void operator()(VkSurfaceKHR_T* surface) const { vkDestroySurfaceKHR(instance, surface, nullptr); }
+    void operator()(VkSurfaceKHR_T* surface) const {
+        // The library keeps its Vulkan entry points to itself: exported, they would stand in for the loader's own.
+        const auto destroy =
+            reinterpret_cast<PFN_vkDestroySurfaceKHR>(glfwGetInstanceProcAddress(instance, "vkDestroySurfaceKHR"));
+        destroy(instance, surface, nullptr);
+    }
 };
 using Surface = std::unique_ptr<VkSurfaceKHR_T, DestroySurface>;
 
