@@ -32,7 +32,9 @@ struct Freed {
 };
 
 /// Alpha is linear already: the last of two or four channels.
-bool is_alpha(int channel, int channels) { return channels % 2 == 0 && channel == channels - 1; }
+bool is_alpha(int channel, int channels) {
+    return channels % 2 == 0 && channel == channels - 1;
+}
 
 template <class Value>
 Image linear_image(const Value* values, int width, int height, int channels) {
@@ -60,7 +62,8 @@ Result<Picture> decode_display(std::string_view bytes, std::int64_t bytes_per_pi
     }
     Picture picture;
     if (stbi_is_16_bit_from_memory(data, size)) {
-        const std::unique_ptr<stbi_us, Freed> values(stbi_load_16_from_memory(data, size, &width, &height, &channels, 0));
+        const std::unique_ptr<stbi_us, Freed> values(
+            stbi_load_16_from_memory(data, size, &width, &height, &channels, 0));
         if (values) picture.image = linear_image(values.get(), width, height, channels);
     } else {
         const std::unique_ptr<stbi_uc, Freed> values(stbi_load_from_memory(data, size, &width, &height, &channels, 0));

@@ -13,9 +13,13 @@ namespace {
 constexpr std::string_view png_signature("\x89PNG\r\n\x1a\n", 8);
 constexpr std::string_view jpeg_start("\xff\xd8\xff", 3);
 
-std::uint32_t byte(std::string_view bytes, std::size_t at) { return static_cast<std::uint8_t>(bytes[at]); }
+std::uint32_t byte(std::string_view bytes, std::size_t at) {
+    return static_cast<std::uint8_t>(bytes[at]);
+}
 
-std::uint32_t big_endian_16(std::string_view bytes, std::size_t at) { return byte(bytes, at) << 8 | byte(bytes, at + 1); }
+std::uint32_t big_endian_16(std::string_view bytes, std::size_t at) {
+    return byte(bytes, at) << 8 | byte(bytes, at + 1);
+}
 
 std::uint32_t big_endian_32(std::string_view bytes, std::size_t at) {
     return big_endian_16(bytes, at) << 16 | big_endian_16(bytes, at + 2);

@@ -91,7 +91,8 @@ Result<void> add_channels(Imf::Header& header, Imf::FrameBuffer& buffer, const s
         // OpenEXR's slices take mutable memory for reading and writing alike; writing only reads it.
         char* base = reinterpret_cast<char*>(const_cast<float*>(image.pixels.data() + c));
         const std::size_t pixel_bytes = sizeof(float) * static_cast<std::size_t>(image.channels);
-        buffer.insert(names[c], Imf::Slice(Imf::FLOAT, base, pixel_bytes, pixel_bytes * static_cast<std::size_t>(image.width)));
+        buffer.insert(names[c],
+                      Imf::Slice(Imf::FLOAT, base, pixel_bytes, pixel_bytes * static_cast<std::size_t>(image.width)));
     }
     return {};
 }
@@ -143,16 +144,18 @@ std::vector<Selection> group_channels(const Imf::ChannelList& list) {
 std::size_t main_selection(const std::vector<Selection>& selections) {
     const auto find = [&](auto&& condition) { return std::find_if(selections.begin(), selections.end(), condition); };
     auto found = find([](const Selection& s) { return s.layer.empty() && s.colour; });
-    if (found == selections.end()) found = find([](const Selection& s) { return s.channels == std::vector<std::string>{"Y"}; });
+    if (found == selections.end())
+        found = find([](const Selection& s) { return s.channels == std::vector<std::string>{"Y"}; });
     if (found == selections.end()) found = find([](const Selection& s) { return s.colour; });
     return found == selections.end() ? 0 : static_cast<std::size_t>(found - selections.begin());
 }
 
 void insert_slices(Imf::FrameBuffer& buffer, const Selection& selection, Image& image, const Imath::Box2i& window) {
     for (std::size_t c = 0; c < selection.channels.size(); ++c) {
-        buffer.insert(selection.channels[c],
-                      Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window, sizeof(float) * selection.channels.size(),
-                                       sizeof(float) * selection.channels.size() * static_cast<std::size_t>(image.width)));
+        buffer.insert(
+            selection.channels[c],
+            Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window, sizeof(float) * selection.channels.size(),
+                             sizeof(float) * selection.channels.size() * static_cast<std::size_t>(image.width)));
     }
 }
 
@@ -165,7 +168,8 @@ std::vector<Image> read_rows(Imf::InputFile& file, const std::vector<Selection>&
     images.reserve(selections.size());
     Imf::FrameBuffer buffer;
     for (const Selection& selection : selections) {
-        images.emplace_back(window.max.x - window.min.x + 1, last_y - first_y + 1, static_cast<int>(selection.channels.size()));
+        images.emplace_back(window.max.x - window.min.x + 1, last_y - first_y + 1,
+                            static_cast<int>(selection.channels.size()));
         insert_slices(buffer, selection, images.back(), window);
     }
     file.setFrameBuffer(buffer);
@@ -237,7 +241,8 @@ Result<std::string> encode_exr(const Picture& picture) {
     if (auto added = add_channels(header, buffer, "", picture.image); !added) return tl::unexpected(added.error());
     for (const Layer& layer : picture.layers) {
         if (layer.name.empty()) return fail("", "a layer has no name");
-        if (auto added = add_channels(header, buffer, layer.name, layer.image); !added) return tl::unexpected(added.error());
+        if (auto added = add_channels(header, buffer, layer.name, layer.image); !added)
+            return tl::unexpected(added.error());
     }
     MemoryOutput stream;
     {

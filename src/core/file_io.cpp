@@ -50,7 +50,9 @@ private:
     std::filesystem::path path_;
 };
 
-std::string system_message() { return std::strerror(errno); }
+std::string system_message() {
+    return std::strerror(errno);
+}
 
 std::filesystem::path directory_of(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
@@ -95,7 +97,8 @@ Result<std::string> read_file(const std::filesystem::path& path) {
 
 Result<void> write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) return fail(path.string(), "expected a file name, found a directory");
+    if (std::filesystem::is_directory(path, ignored))
+        return fail(path.string(), "expected a file name, found a directory");
     std::random_device random;
     // A short name of its own: appending to the target's could exceed what the file system allows.
     TemporaryName temporary(directory_of(path) / fmt::format(".heliodon-{:08x}{:08x}.tmp", random(), random()));
@@ -115,7 +118,8 @@ Result<void> write_file_atomically(const std::filesystem::path& path, std::strin
 
 Result<void> check_directory_writable(const std::filesystem::path& path) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) return fail(path.string(), "expected a file name, found a directory");
+    if (std::filesystem::is_directory(path, ignored))
+        return fail(path.string(), "expected a file name, found a directory");
     const std::filesystem::path directory = directory_of(path);
     if (!std::filesystem::exists(directory, ignored)) {
         return fail(path.string(), fmt::format("cannot write: the directory {} does not exist", directory.string()));
@@ -124,7 +128,8 @@ Result<void> check_directory_writable(const std::filesystem::path& path) {
         return fail(path.string(), fmt::format("cannot write: {} is not a directory", directory.string()));
     }
     if (::access(directory.c_str(), W_OK | X_OK) != 0) {
-        return fail(path.string(), fmt::format("cannot write to the directory {}: {}", directory.string(), system_message()));
+        return fail(path.string(),
+                    fmt::format("cannot write to the directory {}: {}", directory.string(), system_message()));
     }
     return {};
 }

@@ -21,10 +21,10 @@ using Kernel = std::vector<float>;
 constexpr float pixels_per_degree = 0.7f * (3840.0f / 0.7f) * (pi_v<float> / 180.0f);
 
 // Section 4.3 and the authors' reference: exponents and the split of the error range.
-constexpr float colour_exponent = 0.7f;       // q_c
-constexpr float cutoff_fraction = 0.4f;       // p_c
-constexpr float cutoff_error = 0.95f;         // p_t
-constexpr float feature_exponent = 0.5f;      // q_f
+constexpr float colour_exponent = 0.7f;          // q_c
+constexpr float cutoff_fraction = 0.4f;          // p_c
+constexpr float cutoff_error = 0.95f;            // p_t
+constexpr float feature_exponent = 0.5f;         // q_f
 constexpr float feature_width_degrees = 0.082f;  // w, section 4.4
 
 /// Linear Rec. 709 to XYZ, with the rational entries that the authors' reference uses (columns in GLM).
@@ -48,7 +48,9 @@ glm::vec3 rgb_from_ycxcz(glm::vec3 c) {
 /// CIE L*a*b* (CIE 15:2004, section 8.2.1) with the chroma scaled by lightness for the Hunt effect (eq. 7).
 glm::vec3 hunt_lab_from_rgb(glm::vec3 rgb) {
     constexpr float delta = 6.0f / 29.0f;
-    const auto f = [](float t) { return t > delta * delta * delta ? std::cbrt(t) : t / (3.0f * delta * delta) + 4.0f / 29.0f; };
+    const auto f = [](float t) {
+        return t > delta * delta * delta ? std::cbrt(t) : t / (3.0f * delta * delta) + 4.0f / 29.0f;
+    };
     const glm::vec3 t = rgb_to_xyz * rgb / white;
     const float lightness = 116.0f * f(t.y) - 16.0f;
     const float chroma_scale = 0.01f * lightness;
@@ -56,7 +58,9 @@ glm::vec3 hunt_lab_from_rgb(glm::vec3 rgb) {
 }
 
 /// HyAB distance (Abasi et al. 2020; eq. 8).
-float hyab(glm::vec3 a, glm::vec3 b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
+float hyab(glm::vec3 a, glm::vec3 b) {
+    return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
+}
 
 /// One Gaussian of a contrast sensitivity filter: a · sqrt(π/b) · exp(−π² d²/b), d in degrees (eq. 3).
 struct SensitivityTerm {
@@ -211,7 +215,8 @@ Result<Image> flip_map(const Image& reference, const Image& test, float ev100) {
             const float edge = std::abs(r.edges.row(y)[x] - t.edges.row(y)[x]);
             const float point = std::abs(r.points.row(y)[x] - t.points.row(y)[x]);
             // Eq. 10; each detector's response reaches √2.
-            const float feature = std::pow(std::max(edge, point) * std::numbers::sqrt2_v<float> * 0.5f, feature_exponent);
+            const float feature =
+                std::pow(std::max(edge, point) * std::numbers::sqrt2_v<float> * 0.5f, feature_exponent);
             map.at(x, y) = std::pow(colour, 1.0f - std::min(feature, 1.0f));  // eq. 11
         }
     });

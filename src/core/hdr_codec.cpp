@@ -44,7 +44,8 @@ Result<Header> read_header(std::string_view& rest) {
             std::string_view value = line.substr(9);
             value.remove_prefix(std::min(value.find_first_not_of(' '), value.size()));
             float factor = 0;
-            if (std::from_chars(value.data(), value.data() + value.size(), factor).ec != std::errc() || !(factor > 0.0f)) {
+            if (std::from_chars(value.data(), value.data() + value.size(), factor).ec != std::errc() ||
+                !(factor > 0.0f)) {
                 return fail("", fmt::format("expected a positive EXPOSURE, found \"{}\"", value.substr(0, 20)));
             }
             header.exposure *= factor;  // the header may hold several; they multiply
@@ -52,7 +53,8 @@ Result<Header> read_header(std::string_view& rest) {
     }
     const std::string size(take_line(rest).substr(0, 80));
     std::array<char, 2> y_sign{}, x_sign{};
-    if (std::sscanf(size.c_str(), "%1[-+]Y %d %1[+]X %d", y_sign.data(), &header.height, x_sign.data(), &header.width) != 4) {
+    if (std::sscanf(size.c_str(), "%1[-+]Y %d %1[+]X %d", y_sign.data(), &header.height, x_sign.data(),
+                    &header.width) != 4) {
         return fail("", fmt::format("expected a size \"-Y height +X width\", found \"{}\"", size));
     }
     header.bottom_up = y_sign[0] == '+';
@@ -66,7 +68,8 @@ public:
 
     bool read(std::vector<Rgbe>& line) {
         const std::size_t width = line.size();
-        const bool run_length = width >= 8 && width < 32768 && rest_.size() >= 4 && byte(0) == 2 && byte(1) == 2 && byte(2) < 128;
+        const bool run_length =
+            width >= 8 && width < 32768 && rest_.size() >= 4 && byte(0) == 2 && byte(1) == 2 && byte(2) < 128;
         if (!run_length) return read_flat(line);
         if ((std::size_t{byte(2)} << 8 | byte(3)) != width) return false;
         rest_.remove_prefix(4);
@@ -153,7 +156,8 @@ Result<Picture> decode_hdr(std::string_view bytes) {
     std::vector<Rgbe> line(static_cast<std::size_t>(header->width));
     for (int row = 0; row < header->height; ++row) {
         const int y = header->bottom_up ? header->height - 1 - row : row;
-        if (!scanlines.read(line)) return fail("", fmt::format("truncated or damaged at row {} of {}", row, header->height));
+        if (!scanlines.read(line))
+            return fail("", fmt::format("truncated or damaged at row {} of {}", row, header->height));
         for (int x = 0; x < header->width; ++x) {
             const Rgbe& pixel = line[static_cast<std::size_t>(x)];
             const float scale = pixel[3] == 0 ? 0.0f : std::ldexp(1.0f / header->exposure, pixel[3] - exponent_bias);

@@ -38,7 +38,8 @@ constexpr std::array formats = {
 const Format* format_of(const std::filesystem::path& path) {
     std::string ending = path.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    const auto found = std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.ending == ending; });
+    const auto found =
+        std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.ending == ending; });
     return found == formats.end() ? nullptr : &*found;
 }
 
@@ -50,7 +51,8 @@ tl::unexpected<Error> unknown_ending(const std::filesystem::path& path) {
 
 /// A message on one line: what a library quotes from a damaged file may hold anything.
 std::string printable(std::string message) {
-    std::replace_if(message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c >= 0x7f; }, '?');
+    std::replace_if(
+        message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c >= 0x7f; }, '?');
     return message;
 }
 
@@ -58,7 +60,9 @@ std::string printable(std::string message) {
 template <class Codec>
 auto located(const std::filesystem::path& path, Codec&& codec) -> decltype(codec()) {
     try {
-        return codec().map_error([&](Error error) { return Error{path.string(), printable(std::move(error.message))}; });
+        return codec().map_error([&](Error error) {
+            return Error{path.string(), printable(std::move(error.message))};
+        });
     } catch (const std::bad_alloc&) {
         return fail(path.string(), "not enough memory for the picture");
     } catch (const std::exception& exception) {
@@ -83,13 +87,14 @@ namespace codecs {
 Result<void> check_size(std::int64_t width, std::int64_t height, std::int64_t bytes_per_pixel, std::size_t file_bytes,
                         std::int64_t max_expansion) {
     if (width < 1 || height < 1 || width > max_side || height > max_side) {
-        return fail("", fmt::format("expected a size from 1x1 to {0}x{0} pixels, found {1}x{2}", max_side, width, height));
+        return fail("",
+                    fmt::format("expected a size from 1x1 to {0}x{0} pixels, found {1}x{2}", max_side, width, height));
     }
     // The first 64 KiB are free: tiny pictures of one colour compress beyond any ratio.
     const auto limit = static_cast<double>(file_bytes) * static_cast<double>(max_expansion) + 65536.0;
     if (static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(bytes_per_pixel) > limit) {
-        return fail("", fmt::format("the header says {}x{} pixels, more than a file of {} bytes can hold", width, height,
-                                    file_bytes));
+        return fail("", fmt::format("the header says {}x{} pixels, more than a file of {} bytes can hold", width,
+                                    height, file_bytes));
     }
     return {};
 }

@@ -19,7 +19,9 @@ constexpr double dark_limit = 0.001;
 /// Keeps relmse finite in the dark.
 constexpr double relmse_epsilon = 0.01;
 
-int colour_channels(const Image& image) { return image.channels >= 3 ? 3 : 1; }
+int colour_channels(const Image& image) {
+    return image.channels >= 3 ? 3 : 1;
+}
 
 Result<void> check_finite(const char* name, const Image& image) {
     for (int y = 0; y < image.height; ++y) {
@@ -27,7 +29,8 @@ Result<void> check_finite(const char* name, const Image& image) {
             for (int c = 0; c < colour_channels(image); ++c) {
                 const float value = image.at(x, y, c);
                 if (std::isfinite(value)) continue;
-                return fail(name, fmt::format("expected finite values, found {} in channel {} of pixel ({}, {})", value, c, x, y));
+                return fail(name, fmt::format("expected finite values, found {} in channel {} of pixel ({}, {})", value,
+                                              c, x, y));
             }
         }
     }
@@ -94,7 +97,8 @@ double structural_similarity(const Plane<double>& a, const Plane<double>& b) {
     constexpr double deviation = 1.5, c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
     std::array<double, 2 * radius + 1> window{};
     double sum = 0;
-    for (int i = -radius; i <= radius; ++i) sum += window[i + radius] = std::exp(-0.5 * i * i / (deviation * deviation));
+    for (int i = -radius; i <= radius; ++i)
+        sum += window[i + radius] = std::exp(-0.5 * i * i / (deviation * deviation));
     for (double& weight : window) weight /= sum;
     const auto local_mean = [&](auto&& value) {
         Plane<double> plane(a.width, a.height);
@@ -115,7 +119,8 @@ double structural_similarity(const Plane<double>& a, const Plane<double>& b) {
             const double ma = mean_a.row(y)[x], mb = mean_b.row(y)[x];
             const double variance_a = mean_aa.row(y)[x] - ma * ma, variance_b = mean_bb.row(y)[x] - mb * mb;
             const double covariance = mean_ab.row(y)[x] - ma * mb;
-            total += (2 * ma * mb + c1) * (2 * covariance + c2) / ((ma * ma + mb * mb + c1) * (variance_a + variance_b + c2));
+            total += (2 * ma * mb + c1) * (2 * covariance + c2) /
+                     ((ma * ma + mb * mb + c1) * (variance_a + variance_b + c2));
         }
     }
     return total / (static_cast<double>(a.width - 2 * border) * (a.height - 2 * border));
@@ -136,7 +141,8 @@ Result<void> check_comparable(const Image& reference, const Image& test, float e
         if (auto checked = check_finite(name, *image); !checked) return checked;
     }
     const double exposure = 1.0 / units::saturation_luminance_nits(ev100);
-    if (!std::isfinite(exposure) || !(exposure > 0.0)) return fail("", fmt::format("expected a finite exposure, found EV100 {}", ev100));
+    if (!std::isfinite(exposure) || !(exposure > 0.0))
+        return fail("", fmt::format("expected a finite exposure, found EV100 {}", ev100));
     return {};
 }
 
@@ -152,7 +158,8 @@ Result<Metrics> compare(const Image& reference, const Image& test, float ev100) 
     metrics.relmse = sums.relative_squared / (3 * pixels);
     metrics.mae = sums.absolute / (3 * pixels);
     metrics.psnr = metrics.mse > 0 ? -10 * std::log10(metrics.mse) : std::numeric_limits<double>::infinity();
-    const Plane<double> luminance_r = luminance_plane(reference, exposure), luminance_t = luminance_plane(test, exposure);
+    const Plane<double> luminance_r = luminance_plane(reference, exposure),
+                        luminance_t = luminance_plane(test, exposure);
     metrics.median_relative = median_relative_error(luminance_r, luminance_t);
     metrics.ssim = structural_similarity(luminance_r, luminance_t);
     double flip_sum = 0;
@@ -176,7 +183,8 @@ Image heatmap(const Image& map) {
         for (int x = 0; x < map.width; ++x) {
             const float error = std::clamp(map.at(x, y), 0.0f, 1.0f);
             glm::vec3 colour(0.0f);
-            for (int power = degree; power >= 0; --power) colour = colour * error + magma[static_cast<std::size_t>(power)];
+            for (int power = degree; power >= 0; --power)
+                colour = colour * error + magma[static_cast<std::size_t>(power)];
             colour = glm::clamp(colour, 0.0f, 1.0f);
             for (int c = 0; c < 3; ++c) colours.at(x, y, c) = colour[c];
         }

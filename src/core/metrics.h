@@ -8,7 +8,7 @@ namespace heliodon {
 /// The metrics of `heliodon compare` (docs/accuracy.md): on linear values divided by 1.2 · 2^EV100.
 struct Metrics {
     double mse = 0, rmse = 0;
-    double relmse = 0;           ///< mean of d² / (r² + 0.01)
+    double relmse = 0;  ///< mean of d² / (r² + 0.01)
     double mae = 0;
     double median_relative = 0;  ///< median of |d| / r on luminance where r > 0.001; NaN where it nowhere is
     double psnr = 0;             ///< dB, peak 1; infinite for equal pictures

@@ -44,8 +44,8 @@ Result<Picture> decode_pfm(std::string_view bytes) {
     float scale = 0;
     const std::string_view words[] = {take_word(rest), take_word(rest), take_word(rest)};
     if (!parse(words[0], width) || !parse(words[1], height) || !parse(words[2], scale) || scale == 0.0f) {
-        return fail("", fmt::format("expected width, height and scale, found \"{}\" \"{}\" \"{}\"", words[0].substr(0, 20),
-                                    words[1].substr(0, 20), words[2].substr(0, 20)));
+        return fail("", fmt::format("expected width, height and scale, found \"{}\" \"{}\" \"{}\"",
+                                    words[0].substr(0, 20), words[1].substr(0, 20), words[2].substr(0, 20)));
     }
     const int channels = magic == "PF" ? 3 : 1;
     if (auto checked = check_size(width, height, channels * 4, bytes.size(), 1); !checked) {

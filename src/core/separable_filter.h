@@ -16,7 +16,9 @@ struct Plane {
     std::vector<Value> values;
 
     Plane(int width_, int height_)
-        : width(width_), height(height_), values(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {}
+        : width(width_),
+          height(height_),
+          values(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {}
     [[nodiscard]] Value* row(int y) { return values.data() + static_cast<std::size_t>(y) * width; }
     [[nodiscard]] const Value* row(int y) const { return values.data() + static_cast<std::size_t>(y) * width; }
 };

@@ -21,7 +21,9 @@ inline constexpr glm::vec3 luminance_weights{0.2126f, 0.7152f, 0.0722f};
 
 /// Luminance in cd/m² that just saturates the sensor: 78/(100·q) · 2^EV100 with q = 0.65, that is
 /// 1.2 · 2^EV100 (ISO 12232:2006 saturation speed; Lagarde and de Rousiers 2014, section 5.1.1).
-[[nodiscard]] inline double saturation_luminance_nits(double ev100) { return 1.2 * std::exp2(ev100); }
+[[nodiscard]] inline double saturation_luminance_nits(double ev100) {
+    return 1.2 * std::exp2(ev100);
+}
 
 /// What a luminance is multiplied by to become a tone curve's input x = L / (1.2 · 2^EV100).
 [[nodiscard]] inline float exposure_from_ev100(float ev100) {

@@ -61,7 +61,8 @@ Bernstein bernstein(double t) {
 dvec3 combine(const Patch& patch, const std::array<double, 4>& v_weights, const std::array<double, 4>& u_weights) {
     dvec3 sum(0);
     for (std::size_t row = 0; row < 4; ++row) {
-        for (std::size_t column = 0; column < 4; ++column) sum += v_weights[row] * u_weights[column] * patch[row][column];
+        for (std::size_t column = 0; column < 4; ++column)
+            sum += v_weights[row] * u_weights[column] * patch[row][column];
     }
     return sum;
 }
@@ -104,12 +105,12 @@ struct ProfilePoint {
 
 // Newell's teapot is six cubic profiles turned by four quarters, each from its upper to its lower end …
 constexpr std::array<std::array<ProfilePoint, 4>, 6> profiles = {{
-    {{{0, 3.15}, {0.8, 3.15, 0.5625}, {0, 2.85}, {0.2, 2.7}}},                // knob
-    {{{0.2, 2.7}, {0.4, 2.55}, {1.3, 2.55}, {1.3, 2.4}}},                     // lid
-    {{{1.4, 2.4}, {1.3375, 2.53125}, {1.4375, 2.53125}, {1.5, 2.4}}},         // rim
-    {{{1.5, 2.4}, {1.75, 1.875}, {2, 1.35}, {2, 0.9}}},                       // upper body
-    {{{2, 0.9}, {2, 0.45}, {1.5, 0.225}, {1.5, 0.15}}},                       // lower body
-    {{{1.5, 0.15}, {1.5, 0.075}, {1.425, 0}, {0, 0}}},                        // bottom
+    {{{0, 3.15}, {0.8, 3.15, 0.5625}, {0, 2.85}, {0.2, 2.7}}},         // knob
+    {{{0.2, 2.7}, {0.4, 2.55}, {1.3, 2.55}, {1.3, 2.4}}},              // lid
+    {{{1.4, 2.4}, {1.3375, 2.53125}, {1.4375, 2.53125}, {1.5, 2.4}}},  // rim
+    {{{1.5, 2.4}, {1.75, 1.875}, {2, 1.35}, {2, 0.9}}},                // upper body
+    {{{2, 0.9}, {2, 0.45}, {1.5, 0.225}, {1.5, 0.15}}},                // lower body
+    {{{1.5, 0.15}, {1.5, 0.075}, {1.425, 0}, {0, 0}}},                 // bottom
 }};
 
 /// A row of control points across a tube's half: from `inner` in the plane of symmetry out to `half_width`,
@@ -189,7 +190,8 @@ KnotFrame knot_frame(int p, int q, double radius, double t) {
     KnotFrame frame;
     frame.position = reach * out + minor * sq * up;
     frame.velocity = reach_rate * out + reach * around + minor * q * cq * up;
-    const dvec3 acceleration = -minor * q * q * cq * out + 2 * reach_rate * around - reach * p * p * out - minor * q * q * sq * up;
+    const dvec3 acceleration =
+        -minor * q * q * cq * out + 2 * reach_rate * around - reach * p * p * out - minor * q * q * sq * up;
     frame.normal = cq * out + sq * up;
     frame.normal_rate = -q * sq * out + cq * around + q * cq * up;
     const double speed = glm::length(frame.velocity);
@@ -214,7 +216,8 @@ double knot_length(int p, int q, double radius, int segments) {
 Mesh teapot_mesh(int subdivisions) {
     subdivisions = std::clamp(subdivisions, 1, 256);
     Mesh mesh;
-    constexpr std::array<dvec3, 5> quarters = {dvec3(0, 0, 1), dvec3(1, 0, 0), dvec3(0, 0, -1), dvec3(-1, 0, 0), dvec3(0, 0, 1)};
+    constexpr std::array<dvec3, 5> quarters = {dvec3(0, 0, 1), dvec3(1, 0, 0), dvec3(0, 0, -1), dvec3(-1, 0, 0),
+                                               dvec3(0, 0, 1)};
     for (std::size_t piece = 0; piece < profiles.size(); ++piece) {
         for (std::size_t quarter = 0; quarter < 4; ++quarter) {
             const Patch patch = revolved_patch(profiles[piece], quarters[quarter], quarters[quarter + 1]);

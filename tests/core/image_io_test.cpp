@@ -72,7 +72,8 @@ TEST(Exr, NamesChannelsAsOtherProgramsExpectThem) {
     picture.layers = {{"albedo", Image(2, 2, 3)}, {"depth", Image(2, 2, 1)}, {"normal", Image(2, 2, 3)}};
     ASSERT_TRUE(write_picture(directory / "a.exr", picture));
     const std::string bytes = read_file(directory / "a.exr").value();
-    for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "depth.Z", "normal.X", "normal.Y", "normal.Z", "whiteLuminance"}) {
+    for (const char* name :
+         {"albedo.R", "albedo.G", "albedo.B", "depth.Z", "normal.X", "normal.Y", "normal.Z", "whiteLuminance"}) {
         EXPECT_NE(bytes.find(std::string(name) + '\0'), std::string::npos) << name;
     }
     EXPECT_EQ(bytes.find("ev100"), std::string::npos) << "no exposure was given";
@@ -110,7 +111,8 @@ TEST(Pfm, KeepsEveryBit) {
 
 TEST(Pfm, ReadsBigEndianValuesFromTheBottomRowUp) {
     const TemporaryDirectory directory;
-    std::ofstream(directory / "a.pfm", std::ios::binary) << "Pf\n1 2\n1.0\n" << std::string("\x3f\x80\x00\x00\x40\x00\x00\x00", 8);
+    std::ofstream(directory / "a.pfm", std::ios::binary) << "Pf\n1 2\n1.0\n"
+                                                         << std::string("\x3f\x80\x00\x00\x40\x00\x00\x00", 8);
     const Result<Picture> read = read_picture(directory / "a.pfm");
     ASSERT_TRUE(read) << read.error().text();
     EXPECT_EQ(read->image.at(0, 0), 2.0f);
@@ -136,10 +138,10 @@ TEST(Hdr, ReadsRunLengthCodedRowsAndDividesByTheExposure) {
     const TemporaryDirectory directory;
     std::string bytes = "#?RADIANCE\n# a comment\nEXPOSURE= 2.0\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n";
     bytes += std::string("\x02\x02\x00\x08", 4);
-    bytes += std::string("\x88\x80", 2);                                  // R: 8 × 128
-    bytes += std::string("\x08\x00\x10\x20\x30\x40\x50\x60\x70", 9);      // G: eight literals
-    bytes += std::string("\x84\x00\x84\x80", 4);                          // B: two runs
-    bytes += std::string("\x88\x81", 2);                                  // E: 129
+    bytes += std::string("\x88\x80", 2);                              // R: 8 × 128
+    bytes += std::string("\x08\x00\x10\x20\x30\x40\x50\x60\x70", 9);  // G: eight literals
+    bytes += std::string("\x84\x00\x84\x80", 4);                      // B: two runs
+    bytes += std::string("\x88\x81", 2);                              // E: 129
     std::ofstream(directory / "a.hdr", std::ios::binary) << bytes;
     const Result<Picture> read = read_picture(directory / "a.hdr");
     ASSERT_TRUE(read) << read.error().text();
@@ -202,8 +204,9 @@ TEST(Pictures, AnUnknownEndingIsNamedBeforeAnyWork) {
     const TemporaryDirectory directory;
     for (const char* name : {"a.bmp", "a"}) {
         const std::filesystem::path path = directory / name;
-        for (const Error& error : {check_writable(path).error(), write_picture(path, picture_of(Image(1, 1, 3))).error(),
-                                   read_picture(path).error()}) {
+        for (const Error& error :
+             {check_writable(path).error(), write_picture(path, picture_of(Image(1, 1, 3))).error(),
+              read_picture(path).error()}) {
             EXPECT_EQ(error.where, path.string());
             EXPECT_NE(error.message.find(".exr"), std::string::npos);
         }

@@ -98,7 +98,8 @@ TEST(Metrics, MedianRelativeErrorLooksAtLuminanceWhereTheReferenceIsNotDark) {
     EXPECT_TRUE(std::isnan(metrics_of(Image(4, 4, 3), Image(4, 4, 3, 1.0f)).median_relative));
 }
 
-double weighted_mean(const Image& a, const Image& b, int x0, int y0, const std::function<double(double, double)>& value) {
+double weighted_mean(const Image& a, const Image& b, int x0, int y0,
+                     const std::function<double(double, double)>& value) {
     double sum = 0, weights = 0;
     for (int j = -5; j <= 5; ++j) {
         for (int i = -5; i <= 5; ++i) {
@@ -167,7 +168,8 @@ struct PlainFlip {
     [[nodiscard]] Weight sensitivity(double a1, double b1, double a2, double b2) const {
         return [=, this](double x, double y) {
             const double pi = std::numbers::pi, d2 = (x * x + y * y) / (ppd * ppd);
-            return a1 * std::sqrt(pi / b1) * std::exp(-pi * pi * d2 / b1) + a2 * std::sqrt(pi / b2) * std::exp(-pi * pi * d2 / b2);
+            return a1 * std::sqrt(pi / b1) * std::exp(-pi * pi * d2 / b1) +
+                   a2 * std::sqrt(pi / b2) * std::exp(-pi * pi * d2 / b2);
         };
     }
     [[nodiscard]] glm::dvec3 hunt_lab(glm::dvec3 rgb) const {
@@ -187,25 +189,30 @@ struct PlainFlip {
         const auto count = static_cast<std::size_t>(width * height);
         Values y(count), cx(count), cz(count), luma(count);
         for (std::size_t i = 0; i < count; ++i) {
-            const glm::dvec3 rgb = glm::clamp(glm::dvec3(image.pixels[3 * i], image.pixels[3 * i + 1], image.pixels[3 * i + 2]), 0.0, 1.0);
+            const glm::dvec3 rgb =
+                glm::clamp(glm::dvec3(image.pixels[3 * i], image.pixels[3 * i + 1], image.pixels[3 * i + 2]), 0.0, 1.0);
             const glm::dvec3 t = to_xyz * rgb / white;
             y[i] = 116 * t.y - 16, cx[i] = 500 * (t.x - t.y), cz[i] = 200 * (t.y - t.z), luma[i] = t.y;
         }
-        const int radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / (2 * std::numbers::pi * std::numbers::pi)) * ppd));
+        const int radius =
+            static_cast<int>(std::ceil(3 * std::sqrt(0.04 / (2 * std::numbers::pi * std::numbers::pi)) * ppd));
         y = convolve(y, radius, sensitivity(1, 0.0047, 0, 1e-5), false);
         cx = convolve(cx, radius, sensitivity(1, 0.0053, 0, 1e-5), false);
         cz = convolve(cz, radius, sensitivity(34.1, 0.04, 13.5, 0.025), false);
         Seen seen;
         for (std::size_t i = 0; i < count; ++i) {
             const double v = (y[i] + 16) / 116;
-            seen.lab.push_back(hunt_lab(glm::inverse(to_xyz) * (glm::dvec3(v + cx[i] / 500, v, v - cz[i] / 200) * white)));
+            seen.lab.push_back(
+                hunt_lab(glm::inverse(to_xyz) * (glm::dvec3(v + cx[i] / 500, v, v - cz[i] / 200) * white)));
         }
         const double sd = 0.5 * 0.082 * ppd;
         const int feature_radius = static_cast<int>(std::ceil(3 * sd));
         const auto gauss = [sd](double a, double b) { return std::exp(-(a * a + b * b) / (2 * sd * sd)); };
         const auto strength = [&](const std::function<double(double)>& factor) {
-            const Values across = convolve(luma, feature_radius, [&](double a, double b) { return factor(a) * gauss(a, b); }, true);
-            const Values down = convolve(luma, feature_radius, [&](double a, double b) { return factor(b) * gauss(a, b); }, true);
+            const Values across = convolve(
+                luma, feature_radius, [&](double a, double b) { return factor(a) * gauss(a, b); }, true);
+            const Values down = convolve(
+                luma, feature_radius, [&](double a, double b) { return factor(b) * gauss(a, b); }, true);
             Values length(count);
             for (std::size_t i = 0; i < count; ++i) length[i] = std::hypot(across[i], down[i]);
             return length;
@@ -295,7 +302,8 @@ TEST(Heatmap, RunsThroughTheMagmaColours) {
     Image map(3, 1, 1);
     map.pixels = {0.0f, 0.5f, 1.0f};
     const Image colours = heatmap(map);
-    const glm::vec3 expected[] = {{0.001462f, 0.000466f, 0.013866f}, {0.716387f, 0.214982f, 0.475290f}, {0.987053f, 0.991438f, 0.749504f}};
+    const glm::vec3 expected[] = {
+        {0.001462f, 0.000466f, 0.013866f}, {0.716387f, 0.214982f, 0.475290f}, {0.987053f, 0.991438f, 0.749504f}};
     for (int x = 0; x < 3; ++x) {
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(colours.rgb(x, 0)[c], expected[x][c], 0.02f);
     }

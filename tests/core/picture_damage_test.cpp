@@ -73,7 +73,8 @@ TEST_P(DamagedPicture, WithBytesMissingOrInsertedInTheMiddleIsAPictureOrALocated
     for (int trial = 0; trial < 300; ++trial) {
         const std::size_t at = generator() % whole_.size(), count = 1 + generator() % 40;
         expect_sound(read(whole_.substr(0, at) + whole_.substr(std::min(at + count, whole_.size()))));
-        expect_sound(read(whole_.substr(0, at) + std::string(count, static_cast<char>(generator())) + whole_.substr(at)));
+        expect_sound(
+            read(whole_.substr(0, at) + std::string(count, static_cast<char>(generator())) + whole_.substr(at)));
     }
 }
 
@@ -162,8 +163,9 @@ TEST(AbsurdSizes, InAnExrHeaderAreRefused) {
     const std::size_t window = whole.find(std::string("dataWindow\0box2i\0", 17));
     ASSERT_NE(window, std::string::npos);
     const std::size_t corner = window + 17 + 4 + 8;  // past the attribute's length and the first corner
-    for (const std::string& size : {std::string("\xff\xff\x00\x00\xff\xff\x00\x00", 8), std::string("\xff\xff\xff\x7f\xff\xff\xff\x7f", 8),
-                                    std::string("\xff\xff\xff\xff\xff\xff\xff\xff", 8), std::string("\x0f\x00\x00\x00\xff\xff\x00\x00", 8)}) {
+    for (const std::string& size :
+         {std::string("\xff\xff\x00\x00\xff\xff\x00\x00", 8), std::string("\xff\xff\xff\x7f\xff\xff\xff\x7f", 8),
+          std::string("\xff\xff\xff\xff\xff\xff\xff\xff", 8), std::string("\x0f\x00\x00\x00\xff\xff\x00\x00", 8)}) {
         std::string bytes = whole;
         bytes.replace(corner, size.size(), size);
         std::ofstream(directory / "b.exr", std::ios::binary) << bytes;

@@ -49,11 +49,14 @@ TEST(ParallelFor, VisitsEveryItemOnceInPiecesOfTheGrainOnAnyNumberOfThreads) {
     for (const int threads : {0, 1, 2, 7}) {
         for (const std::size_t count : {0u, 1u, 15u, 16u, 1000u}) {
             std::vector<std::atomic<int>> visits(count);
-            parallel_for(count, 16, [&](std::size_t begin, std::size_t end) {
-                EXPECT_EQ(begin % 16, 0u);
-                EXPECT_TRUE(end == begin + 16 || end == count);
-                for (std::size_t i = begin; i < end; ++i) ++visits[i];
-            }, threads);
+            parallel_for(
+                count, 16,
+                [&](std::size_t begin, std::size_t end) {
+                    EXPECT_EQ(begin % 16, 0u);
+                    EXPECT_TRUE(end == begin + 16 || end == count);
+                    for (std::size_t i = begin; i < end; ++i) ++visits[i];
+                },
+                threads);
             for (const auto& visit : visits) EXPECT_EQ(visit, 1);
         }
     }
@@ -61,7 +64,8 @@ TEST(ParallelFor, VisitsEveryItemOnceInPiecesOfTheGrainOnAnyNumberOfThreads) {
 
 TEST(ParallelFor, RunsInOrderOnOneThread) {
     std::vector<std::size_t> begins;
-    parallel_for(50, 0, [&](std::size_t begin, std::size_t) { begins.push_back(begin); }, 1);
+    parallel_for(
+        50, 0, [&](std::size_t begin, std::size_t) { begins.push_back(begin); }, 1);
     std::vector<std::size_t> expected(50);
     std::iota(expected.begin(), expected.end(), std::size_t{0});
     EXPECT_EQ(begins, expected);
