@@ -401,7 +401,7 @@ TEST(SceneOverride, ErrorsNameTheOverride) {
               "--set nodes.ball.shape.radius=-1: expected a number above 0, found -1");
     EXPECT_EQ(error("nodes.ball.shape.radius", "1e999"),
               "--set nodes.ball.shape.radius=1e999: expected a number above 0, found \"1e999\"");
-    EXPECT_EQ(error("nodes.ball.shape.type", "\xff").substr(0, 30), "--set nodes.ball.shape.type=\xff: ") << "not UTF-8";
+    EXPECT_EQ(error("nodes.ball.shape.type", "\xff").substr(0, 31), "--set nodes.ball.shape.type=\xff: ") << "not UTF-8";
     EXPECT_EQ(error("cameras.main.position", "[1, up, 3]"),
               "--set cameras.main.position=[1, up, 3]: expected a list of 3 numbers, found \"[1, up, 3]\"");
     EXPECT_EQ(error("cameras.main.position", "[1, true, 3]"),
