@@ -11,24 +11,39 @@
 namespace heliodon::gpu {
 namespace {
 
+/// The swapchain extension's entry points of this device.
+template <class Function>
+Function entry_point(const Device& device, const char* name) {
+    return reinterpret_cast<Function>(vkGetDeviceProcAddr(device.handle(), name));
+}
+
+/// The surface extension's entry points of this instance: only one with a window system has them.
+template <class Function>
+Function surface_function(const Device& device, const char* name) {
+    return reinterpret_cast<Function>(vkGetInstanceProcAddr(device.instance().handle(), name));
+}
+
 /// UNORM, so that the shaders' own sRGB encoding is shown as it is.
-Result<VkSurfaceFormatKHR> choose_format(VkPhysicalDevice device, VkSurfaceKHR surface) {
+Result<VkSurfaceFormatKHR> choose_format(const Device& device, VkSurfaceKHR surface) {
+    const auto get = surface_function<PFN_vkGetPhysicalDeviceSurfaceFormatsKHR>(device, "vkGetPhysicalDeviceSurfaceFormatsKHR");
     std::uint32_t count = 0;
-    vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr);
+    get(device.physical_device(), surface, &count, nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
-    vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, formats.data());
+    get(device.physical_device(), surface, &count, formats.data());
     for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM})
         for (const VkSurfaceFormatKHR& format : formats)
             if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) return format;
     return fail("window", "expected a surface with 8-bit BGRA or RGBA in sRGB");
 }
 
-VkPresentModeKHR choose_mode(VkPhysicalDevice device, VkSurfaceKHR surface, bool vsync) {
+VkPresentModeKHR choose_mode(const Device& device, VkSurfaceKHR surface, bool vsync) {
     if (vsync) return VK_PRESENT_MODE_FIFO_KHR;  // always offered
+    const auto get = surface_function<PFN_vkGetPhysicalDeviceSurfacePresentModesKHR>(
+        device, "vkGetPhysicalDeviceSurfacePresentModesKHR");
     std::uint32_t count = 0;
-    vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr);
+    get(device.physical_device(), surface, &count, nullptr);
     std::vector<VkPresentModeKHR> modes(count);
-    vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, modes.data());
+    get(device.physical_device(), surface, &count, modes.data());
     for (const VkPresentModeKHR wanted : {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR})
         if (std::ranges::find(modes, wanted) != modes.end()) return wanted;
     return VK_PRESENT_MODE_FIFO_KHR;
@@ -43,19 +58,14 @@ Result<VkSemaphore> create_semaphore(const Device& device, const std::string& na
     return semaphore;
 }
 
-/// The swapchain extension's entry points of this device.
-template <class Function>
-Function entry_point(const Device& device, const char* name) {
-    return reinterpret_cast<Function>(vkGetDeviceProcAddr(device.handle(), name));
-}
-
 }  // namespace
 
 Result<Swapchain> Swapchain::create(Device& device, VkSurfaceKHR surface, VkExtent2D extent, bool vsync) {
     if (!entry_point<PFN_vkCreateSwapchainKHR>(device, "vkCreateSwapchainKHR"))
         return fail("window", "the device was not created for presenting");
     VkBool32 supported = VK_FALSE;
-    vkGetPhysicalDeviceSurfaceSupportKHR(device.physical_device(), device.queue_family(), surface, &supported);
+    surface_function<PFN_vkGetPhysicalDeviceSurfaceSupportKHR>(device, "vkGetPhysicalDeviceSurfaceSupportKHR")(
+        device.physical_device(), device.queue_family(), surface, &supported);
     if (!supported) return fail("window", fmt::format("{} cannot present to it", device.info().name));
     Swapchain swapchain;
     swapchain.device_ = &device;
@@ -66,9 +76,9 @@ Result<Swapchain> Swapchain::create(Device& device, VkSurfaceKHR surface, VkExte
 }
 
 Result<void> Swapchain::build(VkExtent2D extent) {
-    const VkPhysicalDevice physical = device_->physical_device();
     VkSurfaceCapabilitiesKHR surface{};
-    VkResult result = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(physical, surface_, &surface);
+    VkResult result = surface_function<PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR>(
+        *device_, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR")(device_->physical_device(), surface_, &surface);
     if (result != VK_SUCCESS) return vulkan_failure("window", "cannot ask for its properties", result);
     constexpr std::uint32_t free_choice = std::numeric_limits<std::uint32_t>::max();
     if (surface.currentExtent.width != free_choice) extent = surface.currentExtent;
@@ -76,7 +86,7 @@ Result<void> Swapchain::build(VkExtent2D extent) {
                std::clamp(extent.height, surface.minImageExtent.height, surface.maxImageExtent.height)};
     if (extent_.width == 0 || extent_.height == 0) return {};  // minimized: there is nothing to show until resize()
 
-    auto format = choose_format(physical, surface_);
+    auto format = choose_format(*device_, surface_);
     if (!format) return tl::unexpected(format.error());
     format_ = format->format;
     constexpr VkImageUsageFlags needed = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -97,7 +107,7 @@ Result<void> Swapchain::build(VkExtent2D extent) {
     info.compositeAlpha = (surface.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR)
                               ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                               : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
-    info.presentMode = choose_mode(physical, surface_, vsync_);
+    info.presentMode = choose_mode(*device_, surface_, vsync_);
     info.clipped = VK_TRUE;
     info.oldSwapchain = old;
     VkSwapchainKHR created = VK_NULL_HANDLE;
