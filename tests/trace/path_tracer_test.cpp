@@ -9,27 +9,12 @@
 namespace heliodon::tests {
 namespace {
 
-Camera looking(glm::vec3 position, glm::vec3 target, float fov_deg = 40) {
-    Camera camera;
-    camera.position = position;
-    camera.target = target;
-    camera.vertical_fov_rad = glm::radians(fov_deg);
-    return camera;
-}
-
 PathOptions options_of(int size, int samples, int max_depth = 0) {
     PathOptions options;
     options.width = options.height = size;
     options.samples_per_pixel = samples;
     options.max_depth = max_depth;
     return options;
-}
-
-Sky even_sky(float nits) {
-    Sky sky;
-    sky.model = SkyModel::constant;
-    sky.luminance_nits = glm::vec3(nits);
-    return sky;
 }
 
 /// A camera so near the sphere that it fills the picture.
@@ -70,32 +55,6 @@ TEST(WhiteFurnace, ClearGlassReturnsAllOfAnEvenSky) {
         const Picture picture = render(scene, facing_unit_sphere(), options_of(48, 256));
         EXPECT_NEAR(luminance(mean(picture.image)), 1.0, 0.01) << "roughness " << roughness;
     }
-}
-
-/// A box with a lamp, a glossy ball and a masked quad: every kind of ray.
-Scene small_room() {
-    Scene scene;
-    const Material white = lambert(.7f);
-    add_shape(scene, Quad{{-1, 0, -1}, {0, 0, 2}, {2, 0, 0}}, white);
-    add_shape(scene, Quad{{-1, 0, -1}, {2, 0, 0}, {0, 2, 0}}, white);
-    add_shape(scene, Quad{{-.3f, 1.9f, -.3f}, {.6f, 0, 0}, {0, 0, .6f}}, lambert(0, 100));
-    Material glossy;
-    glossy.base_color = {.9f, .6f, .3f};
-    glossy.metallic = 1;
-    glossy.roughness = .3f;
-    add_shape(scene, Sphere{{.4f, .4f, 0}, .4f}, glossy);
-    Material glass = glossy;
-    glass.metallic = 0;
-    glass.transmission = 1;
-    add_shape(scene, Sphere{{-.5f, .3f, .3f}, .3f}, glass);
-    Material veil = white;
-    veil.alpha_mode = AlphaMode::blend;
-    veil.opacity = .5f;
-    veil.two_sided = true;
-    add_shape(scene, Quad{{-1, .2f, .5f}, {2, 0, 0}, {0, 1, 0}}, veil);
-    add_light(scene, point_light(20, .05f), {.8f, 1.5f, .5f});
-    scene.set_sky(even_sky(3));
-    return scene;
 }
 
 TEST(Determinism, ThePictureDoesNotDependOnTheNumberOfThreads) {

@@ -70,7 +70,7 @@ void main() {
         state = path_begin(i % frames[0].width, i / frames[0].width, 0u);
     } else {
         state = states[i];
-        path_take_hit(state, hits[i]);
+        if (state.stage != kernel_stage_done) path_take_hit(state, hits[i]);
     }
     states[i] = state;
     rays[i] = path_next_ray(state);
