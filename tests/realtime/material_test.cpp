@@ -190,7 +190,7 @@ TEST_F(Blending, ABlendedSheetLetsItsShareOfLightThrough) {
     Camera camera;
     camera.position = {0, 0.5f, 1.9f};
     camera.target = {0, 0, 0};
-    camera.vertical_fov_rad = 0.2f;
+    camera.vertical_fov_rad = 0.1f;
     const Image image = render(scene, camera, 16, 64);
     double mean = 0;
     for (int y = 0; y < 16; ++y)

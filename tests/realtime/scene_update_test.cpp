@@ -65,9 +65,9 @@ TEST_F(GpuSceneUpdate, MeshesThatComeAndGoLeaveTheOthersAsTheyAre) {
         const NodeId ball = add_shape_node(scene, Sphere{{0, 0, 0}, 0.5f + 0.1f * round}, white);
         const Image with = render(scene, camera_above(50, 3), 32);
         EXPECT_NEAR(with.at(2, 2), 1.0f, 1e-4f);
-        EXPECT_LT(with.at(17, 19), 0.98f);  // the ball's slope
+        EXPECT_LT(with.at(17, 17), 0.9f);  // the ball's slope
         ASSERT_TRUE(scene.remove(ball));
-        EXPECT_NEAR(render(scene, camera_above(50, 3), 32).at(17, 19), 1.0f, 1e-4f);
+        EXPECT_NEAR(render(scene, camera_above(50, 3), 32).at(17, 17), 1.0f, 1e-4f);
     }
 }
 
@@ -126,7 +126,8 @@ TEST_F(GpuSceneUpdate, SensorsReadLuxOnPlanesAndNitsAlongRays) {
     scene.add_sensor({"looking", SensorType::luminance, {0, 1, 0}, {0, -1, 0}});
     const auto readings = renderer->measure(scene, {});
     ASSERT_TRUE(readings) << readings.error().text();
-    EXPECT_NEAR((*readings)[0].value, 25, 25 * 1e-3);  // 10⁻⁴ of the scene's size above the floor
+    const double distance = 2 - 1e-4 * std::sqrt(128.0);  // a sensor stands off by 10⁻⁴ of the scene's size
+    EXPECT_NEAR((*readings)[0].value, 100 / (distance * distance), 1e-3);
     EXPECT_NEAR((*readings)[1].value, 100 * 2 / std::pow(5.0, 1.5), 0.02);
     EXPECT_EQ((*readings)[2].value, 0);  // in the floor's shadow
     EXPECT_NEAR((*readings)[3].value, 25 * 0.5 / 3.14159265, 25 * 1e-3);
