@@ -120,7 +120,9 @@ std::vector<Selection> group_channels(const Imf::ChannelList& list) {
         components_of[layer].insert(component);
     }
     std::vector<Selection> selections;
-    for (auto& [layer, components] : components_of) {
+    for (auto& entry : components_of) {
+        const std::string& layer = entry.first;
+        std::set<std::string>& components = entry.second;
         const std::string prefix = layer.empty() ? "" : layer + ".";
         const bool alone = components.size() == 1;
         for (const std::string_view pattern : {"RGBA", "RGB", "XYZA", "XYZ", "XY"}) {

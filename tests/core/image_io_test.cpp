@@ -176,6 +176,22 @@ TEST(Png, HoldsDisplayValuesInEightBitsAndReadsThemAsLinearLight) {
     }
 }
 
+// Two pixels of grey and alpha with 16 bits each: (0x8000, 0x1234) and (0xffff, 0xffff).
+TEST(Png, ReadsSixteenBits) {
+    const std::string bytes(
+        "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x02\x00\x00\x00\x01\x10"
+        "\x04\x00\x00\x00\x0e\xbb\x6b\x42\x00\x00\x00\x0f\x49\x44\x41\x54\x78\x9c\x63\x68\x60\x10\x32\xf9\x0f"
+        "\x04\x00\x0f\x6f\x04\xc3\x22\xc1\xc5\x19\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60\x82",
+        72);
+    const Result<Picture> read = decode_picture("a.png", bytes);
+    ASSERT_TRUE(read) << read.error().text();
+    ASSERT_EQ(read->image.channels, 2);
+    EXPECT_FLOAT_EQ(read->image.at(0, 0, 0), units::srgb_decode(32768.0f / 65535.0f));
+    EXPECT_FLOAT_EQ(read->image.at(0, 0, 1), 4660.0f / 65535.0f);
+    EXPECT_EQ(read->image.at(1, 0, 0), 1.0f);
+    EXPECT_EQ(read->image.at(1, 0, 1), 1.0f);
+}
+
 TEST(Png, ClipsValuesOutsideTheDisplayRange) {
     const TemporaryDirectory directory;
     Picture picture = picture_of(Image(1, 1, 3));
