@@ -59,7 +59,7 @@ SHADING_FN vec3 kernel_sky_radiance(vec3 direction) {
     if (kernel_frame().environment == 0u) {
         return vec3(0.0f);
     }
-    const SkyData sky = fetch_sky();
+    SHADING_IN(SkyData) sky = fetch_sky();
     vec3 texel = vec3(1.0f);
     if (sky.model == sky_model_image) {
         texel = vec3(scene_texture(sky.texture_index, sky_uv(direction, sky.north_rad)));
@@ -101,18 +101,18 @@ SHADING_FN float kernel_area_ratio(mat4 m, vec3 n) {
 }
 
 /// True where the sphere is sampled by the cone under which it appears.
-SHADING_FN bool kernel_sees_cone(KernelEmitter emitter, vec3 from) {
+SHADING_FN bool kernel_sees_cone(SHADING_IN(KernelEmitter) emitter, vec3 from) {
     const vec3 to_center = emitter.origin - from;
     return emitter.area > 0.0f && dot(to_center, to_center) > emitter.area * emitter.area * 1.0001f;
 }
-SHADING_FN float kernel_sphere_cone(KernelEmitter emitter, vec3 from) {
+SHADING_FN float kernel_sphere_cone(SHADING_IN(KernelEmitter) emitter, vec3 from) {
     const vec3 to_center = emitter.origin - from;
     return one_minus_cos_from_sin2(emitter.area * emitter.area / dot(to_center, to_center));
 }
 
 /// Density per steradian with which kernel_sample_surface, from `from`, picks the point `position` of this
 /// emitter, whose normal there is `normal`.
-SHADING_FN float kernel_surface_pdf(KernelEmitter emitter, vec3 from, vec3 position, vec3 normal) {
+SHADING_FN float kernel_surface_pdf(SHADING_IN(KernelEmitter) emitter, vec3 from, vec3 position, vec3 normal) {
     const vec3 path = position - from;
     const float squared = dot(path, path);
     const float cosine = abs(dot(path, normal)) * inversesqrt(max(squared, 1.0e-37f));
@@ -124,7 +124,7 @@ SHADING_FN float kernel_surface_pdf(KernelEmitter emitter, vec3 from, vec3 posit
         if (kernel_sees_cone(emitter, from)) {
             return cone_pdf(kernel_sphere_cone(emitter, from));
         }
-        const InstanceData instance = fetch_instance(emitter.index);
+        SHADING_IN(InstanceData) instance = fetch_instance(emitter.index);
         const float radius = fetch_geometry(instance.geometry).radius;
         area = 4.0f * pi * radius * radius * kernel_area_ratio(instance.object_to_world, normal);
     }
@@ -132,9 +132,9 @@ SHADING_FN float kernel_surface_pdf(KernelEmitter emitter, vec3 from, vec3 posit
 }
 
 /// Radiance that leaves the surface at `hit` (opacity included) on its front side.
-SHADING_FN vec3 kernel_emission(KernelHit hit) {
+SHADING_FN vec3 kernel_emission(SHADING_IN(KernelHit) hit) {
     const uint index = fetch_instance(hit.instance).material;
-    const MaterialData material = fetch_material(index);
+    SHADING_IN(MaterialData) material = fetch_material(index);
     if (material.emission_texture.texture_index == no_texture &&
         (material.flags & (material_flag_alpha_mask | material_flag_alpha_blend)) == 0u) {
         return material.emission_nits;
@@ -145,7 +145,7 @@ SHADING_FN vec3 kernel_emission(KernelHit hit) {
 }
 
 /// A point of the emitter, as a hit would name it; `normal` is on its front side.
-SHADING_FN KernelHit kernel_point_on_emitter(KernelEmitter emitter, vec3 from, vec2 u, SHADING_OUT(vec3) position,
+SHADING_FN KernelHit kernel_point_on_emitter(SHADING_IN(KernelEmitter) emitter, vec3 from, vec2 u, SHADING_OUT(vec3) position,
                                              SHADING_OUT(vec3) normal) {
     KernelHit hit;
     hit.kind = kernel_hit_surface;
@@ -155,8 +155,8 @@ SHADING_FN KernelHit kernel_point_on_emitter(KernelEmitter emitter, vec3 from, v
     hit.object_normal = vec3(0.0f, 0.0f, 1.0f);
     hit.barycentric = u;
     if (emitter.kind == kernel_emitter_sphere) {
-        const InstanceData instance = fetch_instance(emitter.index);
-        const KernelGeometry geometry = fetch_geometry(instance.geometry);
+        SHADING_IN(InstanceData) instance = fetch_instance(emitter.index);
+        SHADING_IN(KernelGeometry) geometry = fetch_geometry(instance.geometry);
         if (kernel_sees_cone(emitter, from)) {
             const vec3 to_center = emitter.origin - from;
             const float distance = length(to_center);
@@ -192,7 +192,7 @@ SHADING_FN KernelHit kernel_point_on_emitter(KernelEmitter emitter, vec3 from, v
     return hit;
 }
 
-SHADING_FN KernelLightSample kernel_sample_surface(KernelEmitter emitter, vec3 from, vec2 u) {
+SHADING_FN KernelLightSample kernel_sample_surface(SHADING_IN(KernelEmitter) emitter, vec3 from, vec2 u) {
     vec3 position;
     vec3 normal;
     const KernelHit hit = kernel_point_on_emitter(emitter, from, u, position, normal);
@@ -221,7 +221,7 @@ SHADING_FN KernelLightSample kernel_sample_surface(KernelEmitter emitter, vec3 f
 
 // -- any of them
 
-SHADING_FN KernelLightSample kernel_sample_light(LightData light, vec3 from, vec2 u) {
+SHADING_FN KernelLightSample kernel_sample_light(SHADING_IN(LightData) light, vec3 from, vec2 u) {
     const LightSample sampled = light_sample(light, from, u);
     KernelLightSample result;
     result.direction = sampled.direction;
@@ -234,7 +234,7 @@ SHADING_FN KernelLightSample kernel_sample_light(LightData light, vec3 from, vec
 
 /// One emitter, one direction to it; pdf and light account for the selection.
 SHADING_FN KernelLightSample kernel_sample_emitters(vec3 from, float u_select, vec2 u) {
-    const KernelEmitter emitter = fetch_emitter(kernel_select_emitter(u_select));
+    SHADING_IN(KernelEmitter) emitter = fetch_emitter(kernel_select_emitter(u_select));
     KernelLightSample result;
     if (emitter.kind == kernel_emitter_light) {
         result = kernel_sample_light(fetch_light(emitter.index), from, u);
@@ -249,7 +249,7 @@ SHADING_FN KernelLightSample kernel_sample_emitters(vec3 from, float u_select, v
 }
 
 /// Density with which light sampling would have picked the emissive surface that a ray from `from` hit.
-SHADING_FN float kernel_hit_pdf(KernelPoint point, vec3 from) {
+SHADING_FN float kernel_hit_pdf(SHADING_IN(KernelPoint) point, vec3 from) {
     const uint first = fetch_first_emitter(point.instance);
     if (first == kernel_no_emitter) {
         return 0.0f;

@@ -26,7 +26,7 @@ SHADING_FN vec3 kernel_transform_normal(mat4 normal_to_world, vec3 n) {
 SHADING_FN vec3 kernel_transform_vector(mat4 m, vec3 v) { return vec3(m[0]) * v.x + vec3(m[1]) * v.y + vec3(m[2]) * v.z; }
 SHADING_FN vec3 kernel_transform_point(mat4 m, vec3 v) { return kernel_transform_vector(m, v) + vec3(m[3]); }
 
-SHADING_FN KernelPoint kernel_triangle_point(KernelHit hit, InstanceData instance, KernelGeometry geometry) {
+SHADING_FN KernelPoint kernel_triangle_point(SHADING_IN(KernelHit) hit, SHADING_IN(InstanceData) instance, SHADING_IN(KernelGeometry) geometry) {
     KernelPoint point;
     const uvec3 index = fetch_triangle(instance.geometry, hit.primitive);
     const vec3 p0 = fetch_position(instance.geometry, index.x);
@@ -76,7 +76,7 @@ SHADING_FN KernelPoint kernel_triangle_point(KernelHit hit, InstanceData instanc
 }
 
 /// Texture coordinates and tangents as scene/geometry.h defines them for disks and spheres.
-SHADING_FN KernelPoint kernel_shape_point(KernelHit hit, InstanceData instance, KernelGeometry geometry) {
+SHADING_FN KernelPoint kernel_shape_point(SHADING_IN(KernelHit) hit, SHADING_IN(InstanceData) instance, SHADING_IN(KernelGeometry) geometry) {
     KernelPoint point;
     vec3 normal;
     vec3 position;
@@ -109,9 +109,9 @@ SHADING_FN KernelPoint kernel_shape_point(KernelHit hit, InstanceData instance, 
 
 /// Derivatives of the world position by texture coordinate set `texcoord`, for bump maps; zero where the
 /// coordinates are degenerate.
-SHADING_FN void kernel_derivatives(KernelHit hit, uint texcoord, SHADING_OUT(vec3) dp_du, SHADING_OUT(vec3) dp_dv) {
-    const InstanceData instance = fetch_instance(hit.instance);
-    const KernelGeometry geometry = fetch_geometry(instance.geometry);
+SHADING_FN void kernel_derivatives(SHADING_IN(KernelHit) hit, uint texcoord, SHADING_OUT(vec3) dp_du, SHADING_OUT(vec3) dp_dv) {
+    SHADING_IN(InstanceData) instance = fetch_instance(hit.instance);
+    SHADING_IN(KernelGeometry) geometry = fetch_geometry(instance.geometry);
     vec3 du = vec3(0.0f);
     vec3 dv = vec3(0.0f);
     if (geometry.shape == kernel_shape_disk) {
@@ -133,9 +133,9 @@ SHADING_FN void kernel_derivatives(KernelHit hit, uint texcoord, SHADING_OUT(vec
     dp_dv = kernel_transform_vector(instance.object_to_world, dv);
 }
 
-SHADING_FN KernelPoint kernel_point(KernelHit hit) {
-    const InstanceData instance = fetch_instance(hit.instance);
-    const KernelGeometry geometry = fetch_geometry(instance.geometry);
+SHADING_FN KernelPoint kernel_point(SHADING_IN(KernelHit) hit) {
+    SHADING_IN(InstanceData) instance = fetch_instance(hit.instance);
+    SHADING_IN(KernelGeometry) geometry = fetch_geometry(instance.geometry);
     KernelPoint point;
     if (geometry.shape == kernel_shape_disk || geometry.shape == kernel_shape_sphere) {
         point = kernel_shape_point(hit, instance, geometry);
@@ -150,7 +150,7 @@ SHADING_FN KernelPoint kernel_point(KernelHit hit) {
 }
 
 /// The interpolated normal after the material's normal and bump maps.
-SHADING_FN vec3 kernel_mapped_normal(KernelHit hit, KernelPoint point, MaterialData material) {
+SHADING_FN vec3 kernel_mapped_normal(SHADING_IN(KernelHit) hit, SHADING_IN(KernelPoint) point, SHADING_IN(MaterialData) material) {
     const bool bump = material.bump_texture.texture_index != no_texture;
     if (!bump && material.normal_texture.texture_index == no_texture) {
         return point.normal;

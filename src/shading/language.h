@@ -3,7 +3,8 @@
 //    no templates, no constructors for structs (assign members), no swizzles (GLM has none here): use
 //    vec3(v) to shorten a vec4 and .x .y .z .w for single components;
 //  - float literals with a decimal point and an f: 0.5f (never 0.5: that is a double in C++);
-//  - SHADING_OUT(T) / SHADING_INOUT(T) for reference parameters;
+//  - SHADING_OUT(T) / SHADING_INOUT(T) for reference parameters; SHADING_IN(T) for large structs that are only
+//    read: a parameter, or a local that names what a fetch returns, without a copy in C++;
 //  - constants as SHADING_CONST float name = …;
 //  - no name that GLSL reserves: sample, flat, smooth, input, output, common, filter, active, half, …;
 //  - a header whose functions fetch (material_fetch.h, path_kernel.h) opens no namespace and holds no
@@ -20,6 +21,7 @@
 #define SHADING_BEGIN namespace heliodon::shading {
 #define SHADING_END }
 #define SHADING_FN inline
+#define SHADING_IN(T) const T&
 #define SHADING_OUT(T) T&
 #define SHADING_INOUT(T) T&
 #define SHADING_CONST inline constexpr
@@ -78,6 +80,7 @@ using glm::floatBitsToUint;
 #define SHADING_BEGIN
 #define SHADING_END
 #define SHADING_FN
+#define SHADING_IN(T) T
 #define SHADING_OUT(T) out T
 #define SHADING_INOUT(T) inout T
 #define SHADING_CONST const

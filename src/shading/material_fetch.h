@@ -20,7 +20,7 @@ SHADING_FN vec4 fetch_or_one(TextureRef ref, vec2 uv0, vec2 uv1) {
 }
 
 /// Coverage alone: for shadow rays and the first pass of masked surfaces.
-SHADING_FN float material_opacity_at(MaterialData m, vec2 uv0, vec2 uv1, float vertex_alpha) {
+SHADING_FN float material_opacity_at(SHADING_IN(MaterialData) m, vec2 uv0, vec2 uv1, float vertex_alpha) {
     if ((m.flags & (material_flag_alpha_mask | material_flag_alpha_blend)) == 0u) {
         return 1.0f;
     }
@@ -28,7 +28,7 @@ SHADING_FN float material_opacity_at(MaterialData m, vec2 uv0, vec2 uv1, float v
 }
 
 /// `uv0`, `uv1`: the two coordinate sets; `vertex_color` linear; `inside`: the ray meets the back side.
-SHADING_FN MaterialPoint material_at(MaterialData m, vec2 uv0, vec2 uv1, vec4 vertex_color, bool inside) {
+SHADING_FN MaterialPoint material_at(SHADING_IN(MaterialData) m, vec2 uv0, vec2 uv1, vec4 vertex_color, bool inside) {
     MaterialTexels t = material_texels_default();
     t.base_color = fetch_or_one(m.base_color_texture, uv0, uv1);
     t.orm = vec3(fetch_or_one(m.orm_texture, uv0, uv1));
@@ -45,7 +45,7 @@ SHADING_FN MaterialPoint material_at(MaterialData m, vec2 uv0, vec2 uv1, vec4 ve
 /// The interpolated normal `n` (unit, world) after the normal map and the bump map. `tangent`: world,
 /// w = handedness. dp_du, dp_dv: of the coordinate set that the bump texture uses (triangle_derivatives).
 /// Still to be made usable for the viewer: usable_shading_normal.
-SHADING_FN vec3 material_normal_at(MaterialData m, vec2 uv0, vec2 uv1, vec3 n, vec4 tangent, vec3 dp_du, vec3 dp_dv) {
+SHADING_FN vec3 material_normal_at(SHADING_IN(MaterialData) m, vec2 uv0, vec2 uv1, vec3 n, vec4 tangent, vec3 dp_du, vec3 dp_dv) {
     vec3 result = n;
     if (m.normal_texture.texture_index != no_texture) {
         vec3 texel = vec3(scene_texture(m.normal_texture.texture_index, texture_uv(m.normal_texture, uv0, uv1)));

@@ -72,7 +72,7 @@ SHADING_FN PathState path_begin(uint x, uint y, uint sample_index) {
     return path;
 }
 
-SHADING_FN KernelRay path_next_ray(PathState path) {
+SHADING_FN KernelRay path_next_ray(SHADING_IN(PathState) path) {
     KernelRay ray;
     ray.kind = kernel_ray_none;
     ray.origin = path.origin;
@@ -108,7 +108,7 @@ SHADING_FN void kernel_add_met(SHADING_INOUT(PathState) path, vec3 radiance, flo
 SHADING_FN void kernel_add_visible_lights(SHADING_INOUT(PathState) path, float distance) {
     for (uint i = 0u; i < kernel_frame().visible_light_count; ++i) {
         const uint index = fetch_visible_light(i);
-        const LightData light = fetch_light(index);
+        SHADING_IN(LightData) light = fetch_light(index);
         const float t = light_intersect(light, path.origin, path.direction);
         if (t >= 0.0f && t < distance) {
             const float pdf = light_pdf(light, path.scatter_origin) * fetch_emitter(fetch_light_emitter(index)).probability;
@@ -119,8 +119,8 @@ SHADING_FN void kernel_add_visible_lights(SHADING_INOUT(PathState) path, float d
 
 // -- scattering
 
-SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, Frame frame,
-                                     Surface surface, BsdfLobes lobes, vec3 wo, float u_select, vec2 u) {
+SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, SHADING_IN(Frame) frame,
+                                     SHADING_IN(Surface) surface, SHADING_IN(BsdfLobes) lobes, vec3 wo, float u_select, vec2 u) {
     const KernelLightSample light = kernel_sample_emitters(position, u_select, u);
     if (max_component(light.light) <= 0.0f) {
         return;
@@ -154,7 +154,7 @@ SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 positio
 /// One scattering event: a light sample, whose shadow ray comes first, and a scattered ray. `geometric` is
 /// the side of the surface that `wo_world` is on.
 SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, vec3 normal,
-                               Surface surface, vec3 wo_world) {
+                               SHADING_IN(Surface) surface, vec3 wo_world) {
     const uint event = path.depth;
     path.depth += 1u;
     const bool last = kernel_frame().max_depth != 0u && path.depth >= kernel_frame().max_depth;
@@ -221,7 +221,7 @@ SHADING_FN PathState path_begin_illuminance(uint stream, uint sample_index, vec3
 
 // -- taking hits
 
-SHADING_FN void kernel_take_shadow_hit(SHADING_INOUT(PathState) path, KernelHit hit) {
+SHADING_FN void kernel_take_shadow_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHit) hit) {
     if (hit.kind == kernel_hit_surface) {
         const KernelPoint point = kernel_point(hit);
         const float opacity = material_opacity_at(fetch_material(point.material), point.texcoord0, point.texcoord1, point.color.w);
@@ -245,7 +245,7 @@ SHADING_FN void kernel_take_shadow_hit(SHADING_INOUT(PathState) path, KernelHit 
 }
 
 /// True where the ray goes on behind the surface as if it were not there, with probability 1 − opacity.
-SHADING_FN bool kernel_pass_through(SHADING_INOUT(PathState) path, KernelPoint point, MaterialData material) {
+SHADING_FN bool kernel_pass_through(SHADING_INOUT(PathState) path, SHADING_IN(KernelPoint) point, SHADING_IN(MaterialData) material) {
     const float opacity = material_opacity_at(material, point.texcoord0, point.texcoord1, point.color.w);
     if (opacity >= 1.0f) {
         return false;
@@ -259,9 +259,9 @@ SHADING_FN bool kernel_pass_through(SHADING_INOUT(PathState) path, KernelPoint p
     return true;
 }
 
-SHADING_FN void kernel_take_surface_hit(SHADING_INOUT(PathState) path, KernelHit hit) {
+SHADING_FN void kernel_take_surface_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHit) hit) {
     const KernelPoint point = kernel_point(hit);
-    const MaterialData material = fetch_material(point.material);
+    SHADING_IN(MaterialData) material = fetch_material(point.material);
     if (kernel_pass_through(path, point, material)) {
         return;
     }
@@ -285,7 +285,7 @@ SHADING_FN void kernel_take_surface_hit(SHADING_INOUT(PathState) path, KernelHit
     kernel_scatter(path, point.position, point.error, geometric, normal, at.surface, wo);
 }
 
-SHADING_FN void path_take_hit(SHADING_INOUT(PathState) path, KernelHit hit) {
+SHADING_FN void path_take_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHit) hit) {
     if (path.stage == kernel_stage_shadow) {
         kernel_take_shadow_hit(path, hit);
         return;
