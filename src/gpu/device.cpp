@@ -34,6 +34,18 @@ Result<void> Device::open(const DeviceSettings& settings) {
     vkGetPhysicalDeviceProperties(physical_device_, &properties_);
     queue_family_ = graphics_queue_family(physical_device_).value_or(0);
 
+    if (auto opened = open_logical_device(settings.swapchain); !opened) return opened;
+    if (auto opened = open_timeline(); !opened) return opened;
+    pipeline_cache_ =
+        std::make_unique<PipelineCache>(*this, settings.pipeline_cache_directory.value_or(default_cache_directory()));
+    uploads_ = std::make_unique<Uploads>(*this);
+    auto textures = BindlessTextures::create(*this, settings.texture_slots);
+    if (!textures) return tl::unexpected(textures.error());
+    textures_ = std::move(*textures);
+    return {};
+}
+
+Result<void> Device::open_logical_device(bool swapchain) {
     const auto available = device_extensions(physical_device_);
     std::vector<const char*> extensions;
     const auto enable = [&](const char* name) {
@@ -41,7 +53,7 @@ Result<void> Device::open(const DeviceSettings& settings) {
         if (present) extensions.push_back(name);
         return present;
     };
-    if (settings.swapchain && !enable(VK_KHR_SWAPCHAIN_EXTENSION_NAME))
+    if (swapchain && !enable(VK_KHR_SWAPCHAIN_EXTENSION_NAME))
         return fail(info_.name, "the device cannot present to a window (VK_KHR_swapchain is missing)");
     const bool push_descriptors = enable(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     const bool atomic_float = enable(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME);
@@ -60,10 +72,15 @@ Result<void> Device::open(const DeviceSettings& settings) {
     create.pQueueCreateInfos = &queue;
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
-    VkResult result = vkCreateDevice(physical_device_, &create, nullptr, &handle_);
+    const VkResult result = vkCreateDevice(physical_device_, &create, nullptr, &handle_);
     if (result != VK_SUCCESS) return vulkan_failure(info_.name, "cannot create the device", result);
     vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
 
+    load_extension_functions(push_descriptors);
+    return open_allocator(memory_budget);
+}
+
+void Device::load_extension_functions(bool push_descriptors) {
     if (instance_->has_debug_names()) {
         const auto load = [&](const char* name) { return vkGetInstanceProcAddr(instance_->handle(), name); };
         functions_.set_object_name = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));
@@ -73,7 +90,9 @@ Result<void> Device::open(const DeviceSettings& settings) {
     if (push_descriptors)
         functions_.push_descriptor_set =
             reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(vkGetDeviceProcAddr(handle_, "vkCmdPushDescriptorSetKHR"));
+}
 
+Result<void> Device::open_allocator(bool memory_budget) {
     VmaVulkanFunctions entry_points{};
     entry_points.vkGetInstanceProcAddr = vkGetInstanceProcAddr;
     entry_points.vkGetDeviceProcAddr = vkGetDeviceProcAddr;
@@ -84,23 +103,19 @@ Result<void> Device::open(const DeviceSettings& settings) {
     allocator.instance = instance_->handle();
     allocator.pVulkanFunctions = &entry_points;
     allocator.vulkanApiVersion = VK_API_VERSION_1_3;
-    result = vmaCreateAllocator(&allocator, &allocator_);
+    const VkResult result = vmaCreateAllocator(&allocator, &allocator_);
     if (result != VK_SUCCESS) return vulkan_failure(info_.name, "cannot create the memory allocator", result);
+    return {};
+}
 
+Result<void> Device::open_timeline() {
     VkSemaphoreTypeCreateInfo timeline{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     timeline.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     semaphore.pNext = &timeline;
-    result = vkCreateSemaphore(handle_, &semaphore, nullptr, &timeline_);
+    const VkResult result = vkCreateSemaphore(handle_, &semaphore, nullptr, &timeline_);
     if (result != VK_SUCCESS) return vulkan_failure(info_.name, "cannot create the timeline", result);
     set_name(VK_OBJECT_TYPE_SEMAPHORE, reinterpret_cast<std::uint64_t>(timeline_), "timeline");
-
-    pipeline_cache_ =
-        std::make_unique<PipelineCache>(*this, settings.pipeline_cache_directory.value_or(default_cache_directory()));
-    uploads_ = std::make_unique<Uploads>(*this);
-    auto textures = BindlessTextures::create(*this, settings.texture_slots);
-    if (!textures) return tl::unexpected(textures.error());
-    textures_ = std::move(*textures);
     return {};
 }
 

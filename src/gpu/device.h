@@ -126,6 +126,10 @@ private:
 
     Device();
     [[nodiscard]] Result<void> open(const DeviceSettings& settings);
+    [[nodiscard]] Result<void> open_logical_device(bool swapchain);
+    void load_extension_functions(bool push_descriptors);
+    [[nodiscard]] Result<void> open_allocator(bool memory_budget);
+    [[nodiscard]] Result<void> open_timeline();
     [[nodiscard]] Result<TimelineValue> submit_now(Commands commands, const SubmitSemaphores& semaphores);
     void collect(TimelineValue completed);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "gpu/bindless_textures.h"
@@ -77,6 +78,82 @@ VkPipelineColorBlendAttachmentState blend_state(Blend blend) {
     return state;
 }
 
+/// The fixed-function state of a graphics pipeline; Vulkan's structures point into this object.
+class GraphicsStates {
+public:
+    explicit GraphicsStates(const GraphicsDescription& description) {
+        set_input(description);
+        set_rasterization(description);
+        set_output(description);
+    }
+    GraphicsStates(const GraphicsStates&) = delete;
+    GraphicsStates& operator=(const GraphicsStates&) = delete;
+
+    [[nodiscard]] VkGraphicsPipelineCreateInfo create_info() const {
+        VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
+        info.pNext = &rendering_;
+        info.pVertexInputState = &vertex_input_;
+        info.pInputAssemblyState = &assembly_;
+        info.pViewportState = &viewport_;
+        info.pRasterizationState = &raster_;
+        info.pMultisampleState = &multisample_;
+        info.pDepthStencilState = &depth_;
+        info.pColorBlendState = &blend_;
+        info.pDynamicState = &dynamic_;
+        return info;
+    }
+
+private:
+    void set_input(const GraphicsDescription& description) {
+        vertex_input_.vertexBindingDescriptionCount = static_cast<std::uint32_t>(description.vertex_buffers.size());
+        vertex_input_.pVertexBindingDescriptions = description.vertex_buffers.data();
+        vertex_input_.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(description.vertex_attributes.size());
+        vertex_input_.pVertexAttributeDescriptions = description.vertex_attributes.data();
+        assembly_.topology = description.topology;
+        viewport_.viewportCount = viewport_.scissorCount = 1;
+        dynamic_.dynamicStateCount = static_cast<std::uint32_t>(dynamic_states_.size());
+        dynamic_.pDynamicStates = dynamic_states_.data();
+    }
+
+    void set_rasterization(const GraphicsDescription& description) {
+        raster_.depthClampEnable = description.depth_clamp;
+        raster_.polygonMode = description.polygon_mode;
+        raster_.cullMode = description.cull_mode;
+        raster_.frontFace = description.front_face;
+        raster_.depthBiasEnable = description.depth_bias_constant != 0 || description.depth_bias_slope != 0;
+        raster_.depthBiasConstantFactor = description.depth_bias_constant;
+        raster_.depthBiasSlopeFactor = description.depth_bias_slope;
+        raster_.lineWidth = 1.0f;
+        multisample_.rasterizationSamples = description.samples;
+        depth_.depthTestEnable = description.depth_format != VK_FORMAT_UNDEFINED && description.depth_test;
+        depth_.depthWriteEnable = depth_.depthTestEnable && description.depth_write;
+        depth_.depthCompareOp = description.depth_compare;
+    }
+
+    void set_output(const GraphicsDescription& description) {
+        for (std::size_t index = 0; index < description.color_formats.size(); ++index)
+            attachments_.push_back(blend_state(index < description.blend.size() ? description.blend[index] : Blend::none));
+        blend_.attachmentCount = static_cast<std::uint32_t>(attachments_.size());
+        blend_.pAttachments = attachments_.data();
+        rendering_.viewMask = description.view_mask;
+        rendering_.colorAttachmentCount = static_cast<std::uint32_t>(description.color_formats.size());
+        rendering_.pColorAttachmentFormats = description.color_formats.data();
+        rendering_.depthAttachmentFormat = description.depth_format;
+    }
+
+    std::array<VkDynamicState, 2> dynamic_states_{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    std::vector<VkPipelineColorBlendAttachmentState> attachments_;
+    VkPipelineVertexInputStateCreateInfo vertex_input_{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    VkPipelineInputAssemblyStateCreateInfo assembly_{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    VkPipelineViewportStateCreateInfo viewport_{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    VkPipelineRasterizationStateCreateInfo raster_{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    VkPipelineMultisampleStateCreateInfo multisample_{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    VkPipelineDepthStencilStateCreateInfo depth_{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    VkPipelineColorBlendStateCreateInfo blend_{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    VkPipelineDynamicStateCreateInfo dynamic_{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+    VkPipelineRenderingCreateInfo rendering_{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+};
+
 /// Merges one stage's binding into the set's; error when it contradicts another stage.
 Result<void> merge(std::vector<ShaderBinding>& bindings, const ShaderBinding& added, const std::string& where) {
     const auto known = std::ranges::find(bindings, added.binding, &ShaderBinding::binding);
@@ -119,36 +196,42 @@ Result<PipelineLayout> PipelineLayout::create(Device& device, const std::string&
     if (layout.push_constant_bytes_ > device.limits().maxPushConstantsSize)
         return fail(where, fmt::format("{} bytes of push constants exceed the device's {}", layout.push_constant_bytes_,
                                        device.limits().maxPushConstantsSize));
-    std::ranges::sort(layout.bindings_, {}, &ShaderBinding::binding);
+    if (auto made = layout.create_handles(name); !made) return tl::unexpected(made.error());
+    return layout;
+}
+
+Result<void> PipelineLayout::create_handles(const std::string& name) {
+    const std::string where = fmt::format("pipeline '{}'", name);
+    std::ranges::sort(bindings_, {}, &ShaderBinding::binding);
     std::vector<VkDescriptorSetLayoutBinding> set_bindings;
-    for (const ShaderBinding& binding : layout.bindings_) {
+    for (const ShaderBinding& binding : bindings_) {
         set_bindings.push_back({binding.binding, binding.type, binding.count, binding.stages, nullptr});
-        layout.descriptor_count_ += binding.count;
+        descriptor_count_ += binding.count;
     }
     // Vulkan 1.3, table "required limits": a device with push descriptors takes at least 32 of them.
     constexpr std::uint32_t most_push_descriptors = 32;
-    layout.push_descriptors_ =
-        device.functions().push_descriptor_set && layout.descriptor_count_ <= most_push_descriptors;
+    push_descriptors_ =
+        device_->functions().push_descriptor_set && descriptor_count_ <= most_push_descriptors;
 
     VkDescriptorSetLayoutCreateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    set_info.flags = layout.push_descriptors_ ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
+    set_info.flags = push_descriptors_ ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
     set_info.bindingCount = static_cast<std::uint32_t>(set_bindings.size());
     set_info.pBindings = set_bindings.data();
-    VkResult result = vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &layout.set_layout_);
+    VkResult result = vkCreateDescriptorSetLayout(device_->handle(), &set_info, nullptr, &set_layout_);
     if (result != VK_SUCCESS) return vulkan_failure(where, "cannot create the descriptor layout", result);
 
-    const VkDescriptorSetLayout sets[] = {layout.set_layout_, device.textures().layout()};
-    const std::uint32_t push_bytes = (layout.push_constant_bytes_ + 3) / 4 * 4;
-    const VkPushConstantRange range{layout.push_constant_stages_, 0, push_bytes};
+    const VkDescriptorSetLayout sets[] = {set_layout_, device_->textures().layout()};
+    const std::uint32_t push_bytes = (push_constant_bytes_ + 3) / 4 * 4;
+    const VkPushConstantRange range{push_constant_stages_, 0, push_bytes};
     VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    info.setLayoutCount = layout.uses_textures_ ? 2 : 1;
+    info.setLayoutCount = uses_textures_ ? 2 : 1;
     info.pSetLayouts = sets;
     info.pushConstantRangeCount = push_bytes > 0 ? 1 : 0;
     info.pPushConstantRanges = &range;
-    result = vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout.handle_);
+    result = vkCreatePipelineLayout(device_->handle(), &info, nullptr, &handle_);
     if (result != VK_SUCCESS) return vulkan_failure(where, "cannot create the pipeline layout", result);
-    device.set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<std::uint64_t>(layout.handle_), name);
-    return layout;
+    device_->set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<std::uint64_t>(handle_), name);
+    return {};
 }
 
 PipelineLayout::~PipelineLayout() {
@@ -236,58 +319,10 @@ Result<GraphicsPipeline> GraphicsPipeline::create(Device& device, const Graphics
             return vulkan_failure(where, "cannot load " + shader->name, modules.back()->result());
         stages.push_back(stage_info(*shader, *modules.back(), data));
     }
-    VkPipelineVertexInputStateCreateInfo vertex_input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    vertex_input.vertexBindingDescriptionCount = static_cast<std::uint32_t>(description.vertex_buffers.size());
-    vertex_input.pVertexBindingDescriptions = description.vertex_buffers.data();
-    vertex_input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(description.vertex_attributes.size());
-    vertex_input.pVertexAttributeDescriptions = description.vertex_attributes.data();
-    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-    assembly.topology = description.topology;
-    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
-    viewport.viewportCount = viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-    raster.depthClampEnable = description.depth_clamp;
-    raster.polygonMode = description.polygon_mode;
-    raster.cullMode = description.cull_mode;
-    raster.frontFace = description.front_face;
-    raster.depthBiasEnable = description.depth_bias_constant != 0 || description.depth_bias_slope != 0;
-    raster.depthBiasConstantFactor = description.depth_bias_constant;
-    raster.depthBiasSlopeFactor = description.depth_bias_slope;
-    raster.lineWidth = 1.0f;
-    VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-    multisample.rasterizationSamples = description.samples;
-    VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-    depth.depthTestEnable = description.depth_format != VK_FORMAT_UNDEFINED && description.depth_test;
-    depth.depthWriteEnable = depth.depthTestEnable && description.depth_write;
-    depth.depthCompareOp = description.depth_compare;
-    std::vector<VkPipelineColorBlendAttachmentState> attachments;
-    for (std::size_t index = 0; index < description.color_formats.size(); ++index)
-        attachments.push_back(blend_state(index < description.blend.size() ? description.blend[index] : Blend::none));
-    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
-    blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
-    blend.pAttachments = attachments.data();
-    const VkDynamicState dynamic_states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamic.dynamicStateCount = 2;
-    dynamic.pDynamicStates = dynamic_states;
-    VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
-    rendering.viewMask = description.view_mask;
-    rendering.colorAttachmentCount = static_cast<std::uint32_t>(description.color_formats.size());
-    rendering.pColorAttachmentFormats = description.color_formats.data();
-    rendering.depthAttachmentFormat = description.depth_format;
-
-    VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
-    info.pNext = &rendering;
+    const GraphicsStates states(description);
+    VkGraphicsPipelineCreateInfo info = states.create_info();
     info.stageCount = static_cast<std::uint32_t>(stages.size());
     info.pStages = stages.data();
-    info.pVertexInputState = &vertex_input;
-    info.pInputAssemblyState = &assembly;
-    info.pViewportState = &viewport;
-    info.pRasterizationState = &raster;
-    info.pMultisampleState = &multisample;
-    info.pDepthStencilState = &depth;
-    info.pColorBlendState = &blend;
-    info.pDynamicState = &dynamic;
     info.layout = pipeline.layout_.handle();
     const VkResult result =
         vkCreateGraphicsPipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr, &pipeline.handle_);

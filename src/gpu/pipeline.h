@@ -40,6 +40,8 @@ public:
     [[nodiscard]] bool push_descriptors() const { return push_descriptors_; }
 
 private:
+    [[nodiscard]] Result<void> create_handles(const std::string& name);
+
     Device* device_ = nullptr;
     VkPipelineLayout handle_ = VK_NULL_HANDLE;
     VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;

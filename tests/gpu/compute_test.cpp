@@ -166,6 +166,26 @@ TEST_F(Compute, SamplesTexturesBySlotAndTheDefaultElsewhere) {
     textures.remove(slots[0]);
 }
 
+TEST_F(Compute, BindsMoreResourcesThanCanBePushed) {
+    const ComputePipeline& pipeline = compute("many_buffers.comp");
+    EXPECT_FALSE(pipeline.layout().push_descriptors());
+    std::vector<Buffer> buffers;
+    std::vector<Binding> bindings;
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        buffers.push_back(buffer("value", 4));
+        const std::vector<std::uint32_t> value = {i};
+        expect_ok(device().upload(buffers.back(), std::span<const std::uint32_t>(value)));
+    }
+    for (const Buffer& value : buffers) bindings.emplace_back(value);
+    expect_ok(device().run("many", [&](Commands& commands) {
+        for (std::uint32_t i = 0; i < 300; ++i) {  // more sets than one descriptor pool holds
+            commands.dispatch(pipeline, 1u, Bindings(bindings), {1, 1, 1});
+            commands.compute_barrier();
+        }
+    }));
+    EXPECT_EQ(value_of(device().read_back_as<std::uint32_t>(buffers[39]))[0], 39u + 300u);
+}
+
 TEST_F(Compute, IsTimedByScope) {
     Timestamps timestamps = value_of(Timestamps::create(device()));
     const Buffer values = buffer("values", 4096 * 4);

@@ -70,6 +70,15 @@ TEST_F(ShaderReloading, LocatesErrorsInIncludedFiles) {
     EXPECT_EQ(code.error().where, (directory / "test/constant.h").string() + ":3") << code.error().message;
 }
 
+TEST_F(ShaderReloading, FindsIncludesBelowItsFolderToo) {
+    std::string text = source("CONSTANT");
+    text.replace(text.find("\"constant.h\""), 12, "\"test/constant.h\"");
+    write("test/constant.comp", text);
+    std::vector<std::filesystem::path> files;
+    EXPECT_TRUE(compile_glsl(directory / "test/constant.comp", directory, &files));
+    EXPECT_EQ(files, (std::vector{directory / "test/constant.comp", directory / "test/constant.h"}));
+}
+
 TEST_F(ShaderReloading, SaysWhichIncludeIsMissing) {
     std::filesystem::remove(directory / "test/constant.h");
     const auto code = compile_glsl(directory / "test/constant.comp", directory);
