@@ -1,9 +1,7 @@
 # At install time of the bundle: every shared library that the program loads, but the C library's own.
-# PROGRAM and LIBRARY are set by the caller.
+# PROGRAM, LIBRARY and VULKAN_LOADER (opened at run time, so nothing links to it) are set by the caller.
 set(DESTINATION "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/lib")
 
-# The Vulkan loader is opened at run time, so nothing links to it.
-find_library(VULKAN_LOADER NAMES libvulkan.so.1 NO_CACHE)
 file(GET_RUNTIME_DEPENDENCIES
   EXECUTABLES "${PROGRAM}"
   LIBRARIES "${LIBRARY}" ${VULKAN_LOADER}

@@ -38,7 +38,9 @@ install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/bundle-start.sh DESTINATION bin R
 install(PROGRAMS $<TARGET_FILE:heliodon_cli> DESTINATION libexec COMPONENT bundle EXCLUDE_FROM_ALL)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/heliodon COMPONENT bundle EXCLUDE_FROM_ALL)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/assets DESTINATION share/heliodon COMPONENT bundle EXCLUDE_FROM_ALL)
-install(CODE "set(PROGRAM \"$<TARGET_FILE:heliodon_cli>\")\nset(LIBRARY \"$<TARGET_FILE:heliodon>\")"
+install(CODE "set(PROGRAM \"$<TARGET_FILE:heliodon_cli>\")
+set(LIBRARY \"$<TARGET_FILE:heliodon>\")
+set(VULKAN_LOADER \"${Vulkan_LIBRARY}\")"
   COMPONENT bundle EXCLUDE_FROM_ALL)
 install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/BundleLibraries.cmake COMPONENT bundle EXCLUDE_FROM_ALL)
 
