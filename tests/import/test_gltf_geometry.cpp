@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 
+#include <random>
+
 #include "import/glb_builder.h"
 
 namespace heliodon {
@@ -186,7 +188,8 @@ TEST(GltfGeometry, PrimitivesKeepOnlyTheVerticesTheyUse) {
     scene.geometries().each([](GeometryId, const Geometry& geometry) { EXPECT_EQ(geometry.mesh.positions.size(), 3u); });
 }
 
-TEST(GltfGeometry, DracoMeshesAreDecoded) {
+/// The unit square, draco-compressed.
+GlbBuilder draco_square() {
     draco::TriangleSoupMeshBuilder soup;
     soup.Start(2);
     const int position = soup.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
@@ -202,7 +205,7 @@ TEST(GltfGeometry, DracoMeshesAreDecoded) {
     encoder.SetAttributeQuantization(position, 14);
     encoder.SetAttributeQuantization(texcoord, 12);
     draco::EncoderBuffer encoded;
-    ASSERT_TRUE(encoder.EncodeToBuffer(&encoded).ok());
+    EXPECT_TRUE(encoder.EncodeToBuffer(&encoded).ok());
 
     GlbBuilder builder;
     builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
@@ -214,6 +217,11 @@ TEST(GltfGeometry, DracoMeshesAreDecoded) {
                            {"extensions", {{"KHR_draco_mesh_compression",
                                             {{"bufferView", view}, {"attributes", {{"POSITION", source->attribute(position)->unique_id()},
                                                                                    {"TEXCOORD_0", source->attribute(texcoord)->unique_id()}}}}}}}});
+    return builder;
+}
+
+TEST(GltfGeometry, DracoMeshesAreDecoded) {
+    GlbBuilder builder = draco_square();
     const Mesh mesh = load_mesh(builder);
     ASSERT_EQ(mesh.triangle_count(), 2u);
     EXPECT_NEAR(mesh.bounds().max.x, 1, 1e-4);
@@ -242,12 +250,14 @@ std::vector<unsigned char> encode_vertices(const void* data, std::size_t count, 
     return encoded;
 }
 
-TEST(GltfGeometry, MeshoptBufferViewsAndFiltersAreDecoded) {
+const std::vector<float> filtered_normals = {0, 0, 1, 1, 0, 0.6f, 0.8f, 1, 1, 0, 0, 1, 0, -1, 0, 1};
+
+/// The unit square with those normals, compressed and filtered by meshoptimizer.
+GlbBuilder meshopt_square() {
     GlbBuilder builder;
     builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"EXT_meshopt_compression", "KHR_mesh_quantization"};
-    const std::vector<float> normals = {0, 0, 1, 1, 0, 0.6f, 0.8f, 1, 1, 0, 0, 1, 0, -1, 0, 1};
     std::vector<std::int8_t> oct(16);
-    meshopt_encodeFilterOct(oct.data(), 4, 4, 8, normals.data());
+    meshopt_encodeFilterOct(oct.data(), 4, 4, 8, filtered_normals.data());
     std::vector<std::uint32_t> exponents(12);
     meshopt_encodeFilterExp(exponents.data(), 4, 12, 15, square_positions.data());
     const std::vector<unsigned> indices = {0, 1, 2, 0, 2, 3};
@@ -264,13 +274,30 @@ TEST(GltfGeometry, MeshoptBufferViewsAndFiltersAreDecoded) {
     builder.add_primitive({{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 2}});
     builder.json["buffers"] = {{{"byteLength", builder.binary.size()}},
                                {{"byteLength", 88}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+    return builder;
+}
+
+TEST(GltfGeometry, MeshoptBufferViewsAndFiltersAreDecoded) {
+    GlbBuilder builder = meshopt_square();
     const Mesh mesh = load_mesh(builder);
     ASSERT_EQ(mesh.positions.size(), 4u);
     ASSERT_EQ(mesh.triangle_count(), 2u);
     for (std::size_t v = 0; v < 4; ++v)
         for (int c = 0; c < 3; ++c) {
             EXPECT_NEAR(mesh.positions[v][c], square_positions[v * 3 + std::size_t(c)], 1e-4);
-            EXPECT_NEAR(mesh.normals[v][c], normals[v * 4 + std::size_t(c)], 0.02);
+            EXPECT_NEAR(mesh.normals[v][c], filtered_normals[v * 4 + std::size_t(c)], 0.02);
+        }
+}
+
+TEST(GltfGeometry, DamagedCompressedMeshesNeverCrash) {
+    std::mt19937 random(3);
+    for (const GlbBuilder& whole : {draco_square(), meshopt_square()})
+        for (int i = 0; i < 1500; ++i) {
+            GlbBuilder builder = whole;
+            for (int k = 0; k < 1 + i % 4; ++k) builder.binary[random() % builder.binary.size()] = char(random());
+            Scene scene;
+            std::string error;
+            if (!builder.load(scene, &error)) EXPECT_NE(error.find("model.glb: $."), std::string::npos) << error;
         }
 }
 
