@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -20,11 +22,24 @@ PathOptions options_of(int size, int samples, int max_depth = 0) {
 /// A camera so near the sphere that it fills the picture.
 Camera facing_unit_sphere() { return looking({0, 0, 4}, {0, 0, 0}, 20); }
 
+/// The picture's mean and the half-width of that mean over its pixels, which are independent.
+void report_mean(const std::string& name, double expected, const Picture& picture) {
+    SensorReading reading;
+    reading.value = luminance(mean(picture.image));
+    double squares = 0;
+    const int pixels = picture.image.width * picture.image.height;
+    for (int i = 0; i < pixels; ++i)
+        squares += std::pow(luminance(picture.image.rgb(i % picture.image.width, i / picture.image.width)) - reading.value, 2);
+    reading.half_width_95 = 1.96 * std::sqrt(squares / (pixels - 1.0) / pixels);
+    report(name, expected, reading);
+}
+
 TEST(WhiteFurnace, ALambertSphereOfHalfReflectanceReturnsExactlyHalfOfAnEvenSky) {
     Scene scene;
     scene.set_sky(even_sky(1));
     add_shape(scene, Sphere{{0, 0, 0}, 1}, lambert(.5f));
     const Picture picture = render(scene, facing_unit_sphere(), options_of(32, 4));
+    report_mean("white furnace, lambert of reflectance .5", .5, picture);
     for (const float value : picture.image.pixels) EXPECT_NEAR(value, 0.5f, 2e-6f);
 }
 
@@ -39,7 +54,9 @@ TEST(WhiteFurnace, EveryRoughnessAndMetalnessReturnsAllOfAnEvenSky) {
             material.roughness = roughness;
             add_shape(scene, Sphere{{0, 0, 0}, 1}, material);
             const Picture picture = render(scene, facing_unit_sphere(), options_of(48, 64));
-            EXPECT_NEAR(luminance(mean(picture.image)), 1.0, 0.005) << "metallic " << metallic << ", roughness " << roughness;
+            const std::string name = fmt::format("white furnace, metallic {:g}, roughness {:g}", metallic, roughness);
+            report_mean(name, 1, picture);
+            EXPECT_NEAR(luminance(mean(picture.image)), 1.0, 0.005) << name;
         }
 }
 
@@ -53,6 +70,7 @@ TEST(WhiteFurnace, ClearGlassReturnsAllOfAnEvenSky) {
         glass.roughness = roughness;
         add_shape(scene, Sphere{{0, 0, 0}, 1}, glass);
         const Picture picture = render(scene, facing_unit_sphere(), options_of(48, 256));
+        report_mean(fmt::format("white furnace, clear glass, roughness {:g}", roughness), 1, picture);
         EXPECT_NEAR(luminance(mean(picture.image)), 1.0, 0.01) << "roughness " << roughness;
     }
 }
