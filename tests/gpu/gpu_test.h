@@ -32,7 +32,8 @@ protected:
     }
     static void TearDownTestSuite() {
         device_.reset();
-        for (const auto& message : instance_->validation_messages()) ADD_FAILURE() << message;
+        if (instance_)
+            for (const auto& message : instance_->validation_messages()) ADD_FAILURE() << message;
         instance_.reset();
     }
     void TearDown() override {
