@@ -19,14 +19,15 @@
 namespace heliodon::realtime {
 namespace {
 
-// Shadow maps resident at once: 32 layers of 2048². Lights beyond that are lit in further batches.
+// Shadow maps resident at once: 16 layers of 2048². Lights beyond that are lit in further batches.
 constexpr std::uint64_t shadow_budget_bytes = 512ull << 20;
+constexpr std::uint64_t shadow_texel_bytes = 8;  // depth and slope
 constexpr std::uint32_t smallest_shadow_layers = 6;  // one cube
 constexpr std::size_t frames_in_flight = 2;
 constexpr std::uint32_t fragments_per_pixel = 4;  // room for blended surfaces to begin with
 
 std::uint32_t shadow_layer_budget(const gpu::Device& device, int size) {
-    const std::uint64_t layer_bytes = std::uint64_t(size) * size * 4;
+    const std::uint64_t layer_bytes = std::uint64_t(size) * size * shadow_texel_bytes;
     const auto layers = static_cast<std::uint32_t>(shadow_budget_bytes / layer_bytes);
     return std::clamp(layers, smallest_shadow_layers, device.limits().maxImageArrayLayers);
 }
@@ -153,10 +154,13 @@ Result<void> FrameRenderer::make_images() {
     }
     if (wanted_.shadow_layers != key_.shadow_layers || wanted_.shadow_size != key_.shadow_size) {
         const auto size = static_cast<std::uint32_t>(wanted_.shadow_size);
-        if (auto done = make(shadow_maps_, {.name = "shadow maps", .format = passes::depth_format, .extent = {size, size, 1},
-                                            .layers = wanted_.shadow_layers,
-                                            .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}); !done)
-            return done;
+        gpu::ImageDescription maps{.name = "shadow depth", .format = passes::shadow_depth_format, .extent = {size, size, 1},
+                                   .layers = wanted_.shadow_layers, .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT};
+        if (auto done = make(shadow_depth_, maps); !done) return done;
+        maps.name = "shadow slope";
+        maps.format = passes::shadow_slope_format;
+        maps.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+        if (auto done = make(shadow_slope_, maps); !done) return done;
         auto cull_views = gpu::Buffer::create(device_, {"shadow cull views", wanted_.shadow_layers * sizeof(shading::ViewData)});
         if (!cull_views) return tl::unexpected(cull_views.error());
         shadow_cull_views_ = std::move(*cull_views);
@@ -181,21 +185,23 @@ Result<void> FrameRenderer::make_images() {
 
 Result<void> FrameRenderer::build_shadow_graph() {
     graph::Graph graph;
-    const graph::ImageHandle maps = graph.import_image(shadow_maps_.description());
+    const passes::ShadowMaps maps{graph.import_image(shadow_depth_.description()), graph.import_image(shadow_slope_.description())};
     auto lists = passes::add_cull(graph, pipelines_, inputs_, {wanted_.shadow_layers, wanted_.instance_capacity, true},
                                   shadow_cull_views_, shadow_inputs_.view_count);
     if (!lists) return tl::unexpected(lists.error());
     if (auto done = passes::add_shadow(graph, pipelines_, inputs_, shadow_inputs_, *lists, maps); !done) return done;
-    graph.export_image(maps);
+    graph.export_image(maps.depth);
+    graph.export_image(maps.slope);
     if (auto done = shadow_executor_->set_graph(graph); !done) return done;
-    shadow_executor_->bind(maps, shadow_maps_);
+    shadow_executor_->bind(maps.depth, shadow_depth_);
+    shadow_executor_->bind(maps.slope, shadow_slope_);
     return {};
 }
 
 Result<void> FrameRenderer::build_frame_graph() {
     const VkExtent2D extent{static_cast<std::uint32_t>(wanted_.width), static_cast<std::uint32_t>(wanted_.height)};
     graph::Graph graph;
-    const graph::ImageHandle maps = graph.import_image(shadow_maps_.description());
+    const passes::ShadowMaps maps{graph.import_image(shadow_depth_.description()), graph.import_image(shadow_slope_.description())};
     const graph::ImageHandle sum = graph.import_image(sum_.description());
     graph.export_image(sum);
     auto lists = passes::add_cull(graph, pipelines_, inputs_, {1, wanted_.instance_capacity, false}, camera_view_, camera_view_count_);
@@ -219,7 +225,8 @@ Result<void> FrameRenderer::build_frame_graph() {
         if (auto done = passes::add_tonemap(graph, pipelines_, sum, display, display_scale_, extent); !done) return done;
     }
     if (auto done = frame_executor_->set_graph(graph); !done) return done;
-    frame_executor_->bind(maps, shadow_maps_);
+    frame_executor_->bind(maps.depth, shadow_depth_);
+    frame_executor_->bind(maps.slope, shadow_slope_);
     frame_executor_->bind(sum, sum_);
     if (fragments) frame_executor_->bind(fragments, fragments_);
     if (display) frame_executor_->bind(display, display_);

@@ -127,7 +127,7 @@ private:
     std::uint32_t draw_calls_ = 0;
 
     gpu::Buffer frame_buffer_, camera_view_, shadow_cull_views_, shadow_views_, shading_tables_, fragments_;
-    gpu::Image shadow_maps_, sum_, display_, sky_specular_, sky_irradiance_;
+    gpu::Image shadow_depth_, shadow_slope_, sum_, display_, sky_specular_, sky_irradiance_;
     std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_;
     std::deque<gpu::TimelineValue> in_flight_;
 };

@@ -53,10 +53,12 @@ Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Rec
         auto done = device_.run("sensors", [&](gpu::Commands& commands) {
             status = record_shadows(commands, FrameSample{}, batch, nullptr);
             if (!status) return;
-            commands.transition(shadow_maps_, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-                                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
-            status = passes::record_sensors(commands, pipelines_, inputs_, lighting_, shadow_maps_, *buffer,
-                                            static_cast<std::uint32_t>(sensors.size()), lights);
+            const gpu::Access sampled{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+            commands.transition(shadow_depth_, sampled);
+            commands.transition(shadow_slope_, sampled);
+            status = passes::record_sensors(commands, pipelines_, inputs_, lighting_, shadow_depth_, shadow_slope_,
+                                            *buffer, static_cast<std::uint32_t>(sensors.size()), lights);
         });
         if (!status) return tl::unexpected(status.error());
         if (!done) return tl::unexpected(done.error());

@@ -92,7 +92,7 @@ TEST_F(DirectLight, OneSidedBacksAreBlackAndTwoSidedOnesAreLit) {
 TEST_F(DirectLight, MoreLightsThanShadowMapsFitAreLitInBatches) {
     Scene scene;
     RenderSettings settings;
-    settings.shadow_map_size = 4096;  // eight layers a batch: one cube
+    settings.shadow_map_size = 4096;  // six layers a batch: one cube
     scene.set_render_settings(settings);
     add_floor(scene, 4, scene.add_material(lambert(glm::vec3(1))));
     for (const float x : {-1.0f, 0.0f, 1.0f}) add_point_light(scene, {x, 2, 0}, glm::vec3(100));

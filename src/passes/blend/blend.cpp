@@ -17,7 +17,7 @@ VkDeviceSize blend_buffer_bytes(std::uint32_t capacity) {
 
 Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene, const LightingInputs& lighting,
                        const gpu::Buffer& views, const DrawLists& lists, const Visibility& visibility,
-                       graph::ImageHandle shadow_maps, graph::BufferHandle fragments, graph::ImageHandle picture,
+                       const ShadowMaps& shadow_maps, graph::BufferHandle fragments, graph::ImageHandle picture,
                        VkExtent2D extent) {
     auto description = raster_description("blend lists", "passes/common/opaque.vert", "passes/blend/blend_lists.frag");
     description.depth_write = false;
@@ -64,14 +64,16 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
         [&](PassBuilder& pass) {
             pass.read(heads, Usage::storage_read);
             pass.read_write(fragments, Usage::storage_read_write);
-            pass.read(shadow_maps, Usage::sampled);
+            pass.read(shadow_maps.depth, Usage::sampled);
+            pass.read(shadow_maps.slope, Usage::sampled);
             pass.read_write(picture, Usage::storage_read_write);
         },
         [&scene, &lighting, shadow_maps, heads, fragments, picture, extent, compose = *compose](PassContext& context) {
             const auto bindings = select_bindings(*compose, scene,
                                                   {{8, *lighting.frame},
                                                    {9, *lighting.shadow_views},
-                                                   {10, gpu::Binding(context.image(shadow_maps), lighting.nearest)},
+                                                   {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
+                                                   {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
                                                    {11, *lighting.shading_tables},
                                                    {12, context.buffer(fragments)},
                                                    {13, context.buffer(heads)},

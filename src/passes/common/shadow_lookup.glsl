@@ -1,13 +1,16 @@
 // Does a light reach a point? Every tap compares the stored depth with the depth of the receiver's own
 // plane at that tap (receiver-plane depth: Isidoro 2006, "Shadow Mapping: GPU-based Tips and Techniques"),
 // so a lit plane never shadows itself at any slope or scale and the only bias left is what rasterization
-// itself rounds.
+// itself rounds. What stands nearer there blocks the light only if the plane of its triangle, which the map
+// keeps, is also nearer where the receiver's own ray passes: in folds and corners, where the neighbouring
+// surface rises towards the light, it is not.
 #ifndef HELIODON_SHADOW_LOOKUP_GLSL
 #define HELIODON_SHADOW_LOOKUP_GLSL
 #include "passes/common/scene_tables.glsl"
 
 layout(set = 0, binding = 9, std430) readonly buffer ShadowViews { ShadowViewData shadow_views[]; };
 layout(set = 0, binding = 10) uniform sampler2DArray shadow_maps;
+layout(set = 0, binding = 15) uniform sampler2DArray shadow_slopes;
 
 // Vertices snap to 1/256 texel (VkPhysicalDeviceLimits::subPixelPrecisionBits is 8 or more) before a
 // triangle's depth is set up; twice that covers both ends of an edge.
@@ -41,19 +44,26 @@ ReceiverPlane receiver_plane(ShadowViewData view, vec3 point, vec3 normal) {
     return plane;
 }
 
-/// 1 where nothing stored at the texel stands before the receiver's plane.
-float shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, int size) {
+/// 1 where what is stored at the texel does not stand between the receiver and the light. `position`: the
+/// receiver's own, in texels.
+float shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, vec2 position, int size) {
     // Rows run down from the top, where the second coordinate is +1.
     const vec2 center = ((vec2(texel) + 0.5f) * (2.0f / float(size)) - 1.0f) * vec2(1.0f, -1.0f);
-    const float stored = texelFetch(shadow_maps, ivec3(clamp(texel, ivec2(0), ivec2(size - 1)), int(view.layer)), 0).r;
+    const ivec3 place = ivec3(clamp(texel, ivec2(0), ivec2(size - 1)), int(view.layer));
+    const float stored = texelFetch(shadow_maps, place, 0).r;
     const float slope = abs(plane.gradient.x) + abs(plane.gradient.y);
-    const float bias = slope * shadow_snap_texels * (2.0f / float(size)) +
-                       shadow_depth_rounding * (abs(plane.depth) + slope + (view.kind == shadow_kind_orthographic ? 1.0f : 0.0f));
+    const float texel_slope = slope * (2.0f / float(size));
+    const float rounding = shadow_depth_rounding * (abs(plane.depth) + slope + (view.kind == shadow_kind_orthographic ? 1.0f : 0.0f));
     float expected = plane.depth + dot(plane.gradient, center);
     // A grazing plane can pass behind a perspective view's horizon within the texel: what stands there is
     // compared with half the receiver's own depth at least.
     if (view.kind == shadow_kind_perspective) expected = max(expected, 0.5f * plane.own_depth);
-    return stored <= expected + bias ? 1.0f : 0.0f;
+    if (stored <= expected + texel_slope * shadow_snap_texels + rounding) return 1.0f;
+
+    const vec2 stored_slope = texelFetch(shadow_slopes, place, 0).rg * stored;
+    const float at_receiver = stored + dot(stored_slope, position - (vec2(texel) + 0.5f));
+    const float stored_bias = (abs(stored_slope.x) + abs(stored_slope.y)) * shadow_snap_texels;
+    return at_receiver <= plane.own_depth + stored_bias + rounding ? 1.0f : 0.0f;
 }
 
 float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode) {
@@ -62,13 +72,13 @@ float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode)
     const ReceiverPlane plane = receiver_plane(view, point, normal);
     if (any(greaterThan(abs(plane.at), vec2(1.0f)))) return 1.0f;  // outside what the light's map covers
     const vec2 position = (plane.at * vec2(0.5f, -0.5f) + 0.5f) * float(size);
-    if (filter_mode == shadow_filter_nearest) return shadow_tap(view, plane, ivec2(floor(position)), size);
+    if (filter_mode == shadow_filter_nearest) return shadow_tap(view, plane, ivec2(floor(position)), position, size);
     // Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels.
     const ivec2 first = ivec2(floor(position - 0.5f));
     const vec2 weight = position - 0.5f - vec2(first);
-    const float upper = mix(shadow_tap(view, plane, first, size), shadow_tap(view, plane, first + ivec2(1, 0), size), weight.x);
-    const float lower = mix(shadow_tap(view, plane, first + ivec2(0, 1), size),
-                          shadow_tap(view, plane, first + ivec2(1, 1), size), weight.x);
+    const float upper = mix(shadow_tap(view, plane, first, position, size), shadow_tap(view, plane, first + ivec2(1, 0), position, size), weight.x);
+    const float lower = mix(shadow_tap(view, plane, first + ivec2(0, 1), position, size),
+                          shadow_tap(view, plane, first + ivec2(1, 1), position, size), weight.x);
     return mix(upper, lower, weight.y);
 }
 

@@ -5,14 +5,16 @@
 namespace heliodon::passes {
 
 Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                            const LightingInputs& lighting, const gpu::Image& shadow_maps, const gpu::Buffer& sensors,
-                            std::uint32_t count, const SensorLights& lights) {
+                            const LightingInputs& lighting, const gpu::Image& shadow_depth,
+                            const gpu::Image& shadow_slope, const gpu::Buffer& sensors, std::uint32_t count,
+                            const SensorLights& lights) {
     auto pipeline = pipelines.compute("passes/sensors/sensors.comp");
     if (!pipeline) return tl::unexpected(pipeline.error());
     const shading::SensorConstants push{count, lights.first, lights.count, lights.sky ? 1u : 0u};
     const auto bindings = select_bindings(**pipeline, scene,
                                           {{9, *lighting.shadow_views},
-                                           {10, gpu::Binding(shadow_maps, lighting.nearest)},
+                                           {10, gpu::Binding(shadow_depth, lighting.nearest)},
+                                           {15, gpu::Binding(shadow_slope, lighting.nearest)},
                                            {11, *lighting.shading_tables},
                                            {12, sensors}});
     commands.dispatch_threads(**pipeline, push, bindings, {count, 1, 1});

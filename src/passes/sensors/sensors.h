@@ -11,7 +11,7 @@ struct SensorLights {
 /// Records the illuminance of `count` SensorData planes under one batch of lights, outside any graph: the
 /// shadow maps must be in SHADER_READ_ONLY_OPTIMAL.
 [[nodiscard]] Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                          const LightingInputs& lighting, const gpu::Image& shadow_maps,
+                                          const LightingInputs& lighting, const gpu::Image& shadow_depth, const gpu::Image& shadow_slope,
                                           const gpu::Buffer& sensors, std::uint32_t count, const SensorLights& lights);
 
 }  // namespace heliodon::passes

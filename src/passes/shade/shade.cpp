@@ -4,7 +4,7 @@ namespace heliodon::passes {
 
 Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                      const LightingInputs& lighting, const Visibility& visibility,
-                                     graph::ImageHandle shadow_maps, VkExtent2D extent) {
+                                     const ShadowMaps& shadow_maps, VkExtent2D extent) {
     auto pipeline = pipelines.compute("passes/shade/shade.comp");
     if (!pipeline) return tl::unexpected(pipeline.error());
     const graph::ImageHandle picture = graph.create_image(
@@ -13,14 +13,16 @@ Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipeli
         "shade", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(visibility.ids, graph::Usage::sampled);
-            pass.read(shadow_maps, graph::Usage::sampled);
+            pass.read(shadow_maps.depth, graph::Usage::sampled);
+            pass.read(shadow_maps.slope, graph::Usage::sampled);
             pass.write(picture, graph::Usage::storage_write);
         },
         [&scene, &lighting, visibility, shadow_maps, picture, extent, shade = *pipeline](graph::PassContext& context) {
             const auto bindings = select_bindings(*shade, scene,
                                                   {{8, *lighting.frame},
                                                    {9, *lighting.shadow_views},
-                                                   {10, gpu::Binding(context.image(shadow_maps), lighting.nearest)},
+                                                   {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
+                                                   {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
                                                    {11, *lighting.shading_tables},
                                                    {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
                                                    {13, context.image(picture)}});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "passes/common/scene_inputs.h"
+#include "passes/shadow/shadow.h"
 #include "passes/visibility/visibility.h"
 
 namespace heliodon::passes {
@@ -17,6 +18,6 @@ struct LightingInputs {
 /// picture, RGBA32F radiance in cd/m² (or the AOV that FrameData asks for), alpha = coverage.
 [[nodiscard]] Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                                    const LightingInputs& lighting, const Visibility& visibility,
-                                                   graph::ImageHandle shadow_maps, VkExtent2D extent);
+                                                   const ShadowMaps& shadow_maps, VkExtent2D extent);
 
 }  // namespace heliodon::passes

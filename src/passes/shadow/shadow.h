@@ -4,7 +4,14 @@
 
 namespace heliodon::passes {
 
-inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+inline constexpr VkFormat shadow_depth_format = VK_FORMAT_D32_SFLOAT;
+inline constexpr VkFormat shadow_slope_format = VK_FORMAT_R16G16_SFLOAT;
+
+/// Image arrays, one layer a view.
+struct ShadowMaps {
+    graph::ImageHandle depth;  ///< reversed
+    graph::ImageHandle slope;  ///< of the depth, a texel, relative to it: the plane of the triangle that stands there
+};
 
 /// What of the shadow maps the frame being recorded renders.
 struct ShadowInputs {
@@ -13,9 +20,9 @@ struct ShadowInputs {
     std::uint32_t random_seed = 0;  ///< of the share of light that blended surfaces let through
 };
 
-/// Depth maps of the lights, one layer of `maps` a view, reversed depth. Both sides of every surface block
+/// Maps of what the lights see. Both sides of every surface block
 /// light, so that open, inside-out and non-manifold meshes cast the shadow they should.
 [[nodiscard]] Result<void> add_shadow(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene,
-                                      const ShadowInputs& inputs, const DrawLists& lists, graph::ImageHandle maps);
+                                      const ShadowInputs& inputs, const DrawLists& lists, const ShadowMaps& maps);
 
 }  // namespace heliodon::passes
