@@ -18,8 +18,11 @@ prepare() {
             cmake -S "$root" --preset release
         fi
         # The first build shows how far it is; later ones are silent unless something is wrong. One at a time.
-        local quiet=
-        if [ -e "$root/build/release/bin/heliodon" ]; then quiet=--quiet; fi
-        flock "$root/build/lock" ninja -C "$root/build/release" $quiet "$@"
+        local build=(flock "$root/build/lock" ninja -C "$root/build/release")
+        if [ -e "$root/build/release/bin/heliodon" ]; then
+            "${build[@]}" --quiet "$@" | sed '/^ninja: no work to do/d'
+        else
+            "${build[@]}" "$@"
+        fi
     } >&2
 }
