@@ -89,29 +89,57 @@ std::optional<float> metered_ev100(const Scene& scene) {
     return float(std::log2(card * iso / k));
 }
 
-/// Looks at the whole scene from the front, a little from the right and above.
+/// Looks at the whole scene from the front, a little from the right and above, near enough for the box round
+/// it just to fit into a square picture.
 Camera framing_camera(const Bounds& bounds) {
     Camera camera;
     camera.name = "default";
     camera.vertical_fov_rad = float(40 * pi / 180);
-    const float radius = bounds.empty() ? 1.0f : std::max(0.5f * bounds.diagonal(), 1e-6f);
     camera.target = bounds.empty() ? glm::vec3(0) : bounds.center();
-    // The sphere round the bounds just fits into the vertical field of view.
-    const float distance = radius / std::sin(0.5f * camera.vertical_fov_rad);
-    camera.position = camera.target + distance * glm::normalize(glm::vec3(0.5f, 0.35f, 1.0f));
+    const glm::vec3 backward = glm::normalize(glm::vec3(0.5f, 0.35f, 1.0f));
+    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), backward)), up = glm::cross(backward, right);
+    const glm::vec3 half = bounds.empty() ? glm::vec3(1) : 0.5f * bounds.extent();
+    float distance = 1e-6f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 offset = half * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const float aside = std::max(std::abs(glm::dot(offset, right)), std::abs(glm::dot(offset, up)));
+        distance = std::max(distance, glm::dot(offset, backward) + aside / std::tan(0.5f * camera.vertical_fov_rad));
+    }
+    camera.position = camera.target + distance * backward;
     return camera;
+}
+
+/// The horizontal illuminance of an overcast day that daylight factors are customarily turned into lux with.
+constexpr double overcast_lux = 10000;
+
+/// The CIE overcast sky, L = Lz (1 + 2 sin γ) / 3 (Moon & Spencer 1942; ISO 15469:2004, type 16), for which
+/// E = 7π/9 · Lz, over a ground of 20 % reflectance that this sky lights.
+Texture overcast_sky() {
+    constexpr int width = 4, height = 256;
+    constexpr double ground_reflectance = 0.2;
+    constexpr double zenith = overcast_lux * 9 / (7 * pi), ground = ground_reflectance * overcast_lux / pi;
+    Texture sky{.name = "overcast", .width = width, .height = height, .format = TextureFormat::float32};
+    sky.wrap_v = Wrap::clamp_to_edge;
+    std::vector<std::uint8_t>& level = sky.levels.emplace_back(std::size_t(width) * height * sky.bytes_per_texel());
+    for (int y = 0; y < height; ++y) {
+        const double elevation = pi / 2 - pi * (y + 0.5) / height;
+        const double nits = elevation > 0 ? zenith * (1 + 2 * std::sin(elevation)) / 3 : ground;
+        const glm::vec4 texel(glm::vec3(float(nits)), 1.0f);
+        for (int x = 0; x < width; ++x) std::memcpy(&level[(std::size_t(y) * width + x) * sizeof texel], &texel, sizeof texel);
+    }
+    build_mip_chain(sky);
+    return sky;
 }
 
 void make_presentable(Scene& scene, const std::string& where, bool is_model, Warnings& warnings) {
     const bool bring_camera = scene.cameras().size() == 0;
     if (is_model && !has_lights(scene) && scene.sky().model == SkyModel::none) {
-        // The horizontal illuminance of an overcast day that daylight factors are customarily turned into lux with.
-        constexpr double overcast_lux = 10000;
         Sky sky;
-        sky.model = SkyModel::constant;
-        sky.luminance_nits = glm::vec3(float(overcast_lux / pi));
+        sky.model = SkyModel::image;
+        sky.luminance_nits = glm::vec3(1);
+        sky.image = scene.add_texture(overcast_sky());
         scene.set_sky(sky);
-        warnings.push_back({where, fmt::format("has no lights: stands under a uniform sky of {:.0f} cd/m² (10 000 lx)", overcast_lux / pi)});
+        warnings.push_back({where, fmt::format("has no lights: stands under an overcast sky of {:.0f} lx", overcast_lux)});
     }
     if (bring_camera) {
         scene.add_camera(framing_camera(scene.bounds()));
