@@ -8,6 +8,19 @@
 
 namespace heliodon::gpu {
 
+namespace {
+
+/// Mesa's lavapipe writes a timestamp when it next flushes its rasterizer, long after the compute work that
+/// followed was done at once; a barrier makes it flush now, so that a pass's time is the pass's own.
+void write_timestamp(Commands& commands, VkQueryPool pool, std::uint32_t query) {
+    vkCmdWriteTimestamp2(commands.handle(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
+    if (!commands.device().info().is_cpu) return;
+    constexpr Access everything{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT};
+    commands.memory_barrier(everything, everything);
+}
+
+}  // namespace
+
 Result<Timestamps> Timestamps::create(Device& device, std::uint32_t scopes) {
     Timestamps timestamps;
     timestamps.device_ = &device;
@@ -61,14 +74,14 @@ std::uint32_t Timestamps::begin(Commands& commands, const std::string& name) {
     if (frame == frames_.end() || frame->names.size() >= capacity_) return ~0u;
     const auto scope = static_cast<std::uint32_t>(frame->names.size());
     frame->names.push_back(name);
-    vkCmdWriteTimestamp2(commands.handle(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, frame->pool, 2 * scope);
+    write_timestamp(commands, frame->pool, 2 * scope);
     return scope;
 }
 
 void Timestamps::end(Commands& commands, std::uint32_t scope) {
     const auto frame = std::ranges::find(frames_, number_, &Frame::number);
     if (frame == frames_.end() || scope >= frame->names.size()) return;
-    vkCmdWriteTimestamp2(commands.handle(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, frame->pool, 2 * scope + 1);
+    write_timestamp(commands, frame->pool, 2 * scope + 1);
 }
 
 bool Timestamps::read(Frame& frame, VkQueryResultFlags flags) {

@@ -13,7 +13,8 @@ namespace {
 void timing_panel(const FrameReport& report) {
     ImGui::Text("%s", report.device.c_str());
     ImGui::Text("%.3f ms GPU a frame, %d frames accumulated", report.gpu_ms_total, report.accumulated_frames);
-    if (!ImGui::BeginTable("passes", 2, ImGuiTableFlags_SizingStretchProp)) return;
+    for (const Error& error : report.shader_errors) ImGui::TextColored({1.0f, 0.4f, 0.3f, 1.0f}, "%s", error.text().c_str());
+    if (!ImGui::BeginTable("passes", 2, ImGuiTableFlags_SizingFixedFit)) return;
     for (const PassTime& pass : report.passes) {
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(pass.name.c_str());
@@ -140,15 +141,19 @@ void materials_panel(Scene& scene) {
 void draw_panels(Scene& scene, ViewState& view, const FrameReport& report) {
     if (!view.panels_visible) return;
     ImGui::SetNextWindowPos({12, 12}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({360, 640}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Heliodon")) {
+    ImGui::SetNextWindowSize({360, 560}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Scene")) {
         ImGui::PushItemWidth(190.0f);
-        if (ImGui::CollapsingHeader("GPU time", ImGuiTreeNodeFlags_DefaultOpen)) timing_panel(report);
         if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) camera_panel(scene, view);
         if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) lights_panel(scene);
-        if (ImGui::CollapsingHeader("Materials")) materials_panel(scene);
+        if (ImGui::CollapsingHeader("Materials", ImGuiTreeNodeFlags_DefaultOpen)) materials_panel(scene);
         ImGui::PopItemWidth();
     }
+    ImGui::End();
+    const float right = ImGui::GetIO().DisplaySize.x - 12.0f;
+    ImGui::SetNextWindowPos({right, 12}, ImGuiCond_Always, {1.0f, 0.0f});
+    if (ImGui::Begin("GPU time", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing))
+        timing_panel(report);
     ImGui::End();
 }
 

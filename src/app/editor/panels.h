@@ -14,6 +14,7 @@ struct FrameReport {
     double gpu_ms_total = 0;
     std::string device;
     int accumulated_frames = 0;
+    std::span<const Error> shader_errors;  ///< of the latest reload
 };
 
 /// The panels' own state: the camera the window looks through and how it moves.

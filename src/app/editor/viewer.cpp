@@ -97,11 +97,11 @@ Result<Viewer> open(const ViewerSettings& settings) {
 
 void move_camera(ViewState& view, const Input& input, float height, float seconds) {
     const ImGuiIO& io = ImGui::GetIO();
-    const auto [left, right, middle] = input.buttons;
+    const auto [left, right, middle] = input.drags;
     if (!io.WantCaptureMouse) {
-        if (left) view.camera = view.fly ? look(view.camera, input.drag, height) : orbit(view.camera, input.drag, height);
-        if (right) view.camera = look(view.camera, input.drag, height);
-        if (middle) view.camera = pan(view.camera, input.drag, height);
+        if (left != glm::vec2(0)) view.camera = view.fly ? look(view.camera, left, height) : orbit(view.camera, left, height);
+        if (right != glm::vec2(0)) view.camera = look(view.camera, right, height);
+        if (middle != glm::vec2(0)) view.camera = pan(view.camera, middle, height);
         if (input.scroll != 0) view.camera = dolly(view.camera, input.scroll);
     }
     if (!io.WantCaptureKeyboard && input.keys != glm::vec3(0))
@@ -144,6 +144,7 @@ Result<void> run(Viewer& viewer, Scene& scene, ViewState& view) {
     using Clock = std::chrono::steady_clock;
     auto last = Clock::now();
     int accumulated_frames = 0;
+    std::vector<Error> shader_errors;
     while (!viewer.window.should_close()) {
         const VkExtent2D size = viewer.window.extent();
         const bool minimized = size.width == 0 || size.height == 0;
@@ -156,10 +157,10 @@ Result<void> run(Viewer& viewer, Scene& scene, ViewState& view) {
         viewer.interface->begin_frame();
         move_camera(view, input, static_cast<float>(size.height), seconds);
         if (input.toggle_panels) view.panels_visible = !view.panels_visible;
-        // Shaders that do not compile stay as they were; the messages are shown where the timings are.
-        if (input.reload_shaders) (void)viewer.renderer->pipelines().reload();
+        // Shaders that do not compile stay as they were; the panel shows why.
+        if (input.reload_shaders) shader_errors = viewer.renderer->pipelines().reload().errors;
         const std::vector<PassTime> passes = viewer.renderer->pass_times();
-        FrameReport report{passes, 0, viewer.device->info().name, accumulated_frames};
+        FrameReport report{passes, 0, viewer.device->info().name, accumulated_frames, shader_errors};
         for (const PassTime& pass : passes) report.gpu_ms_total += pass.gpu_ms;
         draw_panels(scene, view, report);
         ImGui::Render();

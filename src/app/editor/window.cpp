@@ -29,18 +29,33 @@ Result<Window> Window::create(const std::string& title, int width, int height) {
     window.handle_.reset(glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr));
     if (!window.handle_) return fail("window", glfw_message());
     window.events_ = std::make_unique<Events>();
-    glfwSetWindowUserPointer(window.handle(), window.events_.get());
-    glfwSetScrollCallback(window.handle(), [](GLFWwindow* handle, double, double steps) {
-        static_cast<Events*>(glfwGetWindowUserPointer(handle))->scroll += static_cast<float>(steps);
+    listen(window.handle(), *window.events_);
+    return window;
+}
+
+void Window::listen(GLFWwindow* window, Events& events) {
+    static constexpr auto of = [](GLFWwindow* handle) -> Events& { return *static_cast<Events*>(glfwGetWindowUserPointer(handle)); };
+    glfwSetWindowUserPointer(window, &events);
+    glfwSetCursorPosCallback(window, [](GLFWwindow* handle, double x, double y) {
+        Events& state = of(handle);
+        const glm::vec2 pointer(static_cast<float>(x), static_cast<float>(y));
+        for (std::size_t button = 0; button < state.held.size(); ++button)
+            if (state.held[button]) state.input.drags[button] += pointer - state.pointer;
+        state.pointer = pointer;
     });
-    glfwSetKeyCallback(window.handle(), [](GLFWwindow* handle, int key, int, int action, int) {
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* handle, int button, int action, int) {
+        Events& state = of(handle);
+        if (button < static_cast<int>(state.held.size())) state.held[static_cast<std::size_t>(button)] = action == GLFW_PRESS;
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* handle, double, double steps) {
+        of(handle).input.scroll += static_cast<float>(steps);
+    });
+    glfwSetKeyCallback(window, [](GLFWwindow* handle, int key, int, int action, int) {
         if (action != GLFW_PRESS) return;
-        auto& events = *static_cast<Events*>(glfwGetWindowUserPointer(handle));
-        if (key == GLFW_KEY_TAB) events.toggle_panels = true;
-        if (key == GLFW_KEY_F5) events.reload_shaders = true;
+        if (key == GLFW_KEY_TAB) of(handle).input.toggle_panels ^= true;
+        if (key == GLFW_KEY_F5) of(handle).input.reload_shaders = true;
         if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(handle, GLFW_TRUE);
     });
-    return window;
 }
 
 std::vector<std::string> Window::instance_extensions() const {
@@ -69,20 +84,10 @@ void Window::set_title(const std::string& title) { glfwSetWindowTitle(handle(), 
 
 Input Window::poll(bool wait) {
     wait ? glfwWaitEvents() : glfwPollEvents();
-    Input input;
-    double x = 0, y = 0;
-    glfwGetCursorPos(handle(), &x, &y);
-    const glm::vec2 pointer(static_cast<float>(x), static_cast<float>(y));
-    input.drag = pointer - pointer_;
-    pointer_ = pointer;
-    const auto held = [&](int button) { return glfwGetMouseButton(handle(), button) == GLFW_PRESS; };
-    input.buttons = {held(GLFW_MOUSE_BUTTON_LEFT), held(GLFW_MOUSE_BUTTON_RIGHT), held(GLFW_MOUSE_BUTTON_MIDDLE)};
+    Input input = events_->input;
+    events_->input = {};
     const auto key = [&](int name) { return glfwGetKey(handle(), name) == GLFW_PRESS ? 1.0f : 0.0f; };
     input.keys = {key(GLFW_KEY_D) - key(GLFW_KEY_A), key(GLFW_KEY_E) - key(GLFW_KEY_Q), key(GLFW_KEY_W) - key(GLFW_KEY_S)};
-    input.scroll = events_->scroll;
-    input.toggle_panels = events_->toggle_panels;
-    input.reload_shaders = events_->reload_shaders;
-    *events_ = {};
     return input;
 }
 

@@ -14,9 +14,9 @@ namespace heliodon::editor {
 
 /// What the user did since the last poll.
 struct Input {
-    glm::vec2 drag{0};     ///< pixels the pointer moved, right and down
+    /// Pixels, right and down, that the pointer moved with the left, right, middle button held.
+    std::array<glm::vec2, 3> drags{};
     float scroll = 0;      ///< steps away from the user
-    std::array<bool, 3> buttons{};  ///< left, right, middle held
     glm::vec3 keys{0};     ///< right, up, forward: −1, 0 or 1 (D A, E Q, W S)
     bool toggle_panels = false;  ///< Tab was pressed
     bool reload_shaders = false; ///< F5 was pressed
@@ -47,16 +47,18 @@ private:
     struct Destroy {
         void operator()(GLFWwindow* window) const;
     };
+    // Collected event by event: a drag that begins and ends between two slow frames still counts.
     struct Events {
-        float scroll = 0;
-        bool toggle_panels = false, reload_shaders = false;
+        Input input;
+        glm::vec2 pointer{0};
+        std::array<bool, 3> held{};
     };
     Window() = default;
+    static void listen(GLFWwindow* window, Events& events);
 
     std::unique_ptr<Session> session_;
     std::unique_ptr<Events> events_;  // its address is the callbacks' user pointer
     std::unique_ptr<GLFWwindow, Destroy> handle_;
-    glm::vec2 pointer_{0};
 };
 
 }  // namespace heliodon::editor
