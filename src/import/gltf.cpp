@@ -46,8 +46,10 @@ void set_transform(const Document& document, const tinygltf::Node& source, const
         for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = float(source.matrix[std::size_t(i)]);
         for (int i = 0; i < 16; ++i)
             if (!std::isfinite(matrix[i / 4][i % 4])) document.refuse(at + ".matrix", "expected finite numbers");
-        if (const auto transform = decompose(matrix)) node.transform = *transform;
-        else node.matrix = matrix;
+        if (const auto transform = decompose(matrix))
+            node.transform = *transform;
+        else
+            node.matrix = matrix;
         return;
     }
     if (source.translation.size() == 3) node.transform.translation = vector<3>(source.translation);
@@ -88,14 +90,15 @@ struct Drafts {
 
 class SceneBuilder {
 public:
-    SceneBuilder(const Document& document, const tinygltf::Model& model, Scene& scene) : document_(document), model_(model), scene_(scene) {}
+    SceneBuilder(const tinygltf::Model& model, Scene& scene) : model_(model), scene_(scene) {}
 
     void add_resources(Drafts& drafts) {
         std::vector<TextureId> textures;
         for (Texture& texture : drafts.textures) textures.push_back(scene_.add_texture(std::move(texture)));
         std::vector<MaterialId> materials;
         for (MaterialDraft& draft : drafts.materials) {
-            for (const MaterialDraft::Slot& slot : draft.slots) (draft.material.*slot.use).texture = textures[std::size_t(slot.texture)];
+            for (const MaterialDraft::Slot& slot : draft.slots)
+                (draft.material.*slot.use).texture = textures[std::size_t(slot.texture)];
             materials.push_back(scene_.add_material(std::move(draft.material)));
         }
         for (MeshDraft& mesh : drafts.meshes) {
@@ -118,13 +121,13 @@ public:
             if (const int mesh = model_.nodes[index].mesh; mesh >= 0) node.parts = parts_[std::size_t(mesh)];
             ids[index] = scene_.add_node(std::move(node), parent);
             const std::vector<int>& children = model_.nodes[index].children;
-            for (auto child = children.rbegin(); child != children.rend(); ++child) waiting.push_back({std::size_t(*child), ids[index]});
+            for (auto child = children.rbegin(); child != children.rend(); ++child)
+                waiting.push_back({std::size_t(*child), ids[index]});
         }
         return ids;
     }
 
 private:
-    const Document& document_;
     const tinygltf::Model& model_;
     Scene& scene_;
     std::vector<std::vector<Part>> parts_;
@@ -141,7 +144,8 @@ std::vector<Node> read_nodes(const Document& document, const tinygltf::Model& mo
             const std::string inside = at + ".extensions.KHR_lights_punctual";
             const std::size_t light = unsigned_member(document, *punctual, "light", {}, inside);
             if (light >= lights.size())
-                document.refuse(inside + ".light", fmt::format("index {} is out of range: there are {} lights", light, lights.size()));
+                document.refuse(inside + ".light",
+                                fmt::format("index {} is out of range: there are {} lights", light, lights.size()));
             node.light = lights[light];
         }
         nodes.push_back(std::move(node));
@@ -171,7 +175,7 @@ NodeId import_gltf(Scene& scene, NodeId parent, const std::filesystem::path& pat
     const std::vector<std::optional<Camera>> cameras = read_cameras(document, model, warnings);
     document.release_bytes();
 
-    SceneBuilder builder(document, model, scene);
+    SceneBuilder builder(model, scene);
     builder.add_resources(drafts);
     Node root;
     root.name = path.stem().string();

@@ -16,7 +16,7 @@ namespace heliodon::import::gltf {
 struct MaterialDraft {
     Material material;
     struct Slot {
-        TextureUse Material::* use;
+        TextureUse Material::*use;
         int texture;
     };
     std::vector<Slot> slots;
@@ -34,8 +34,8 @@ using MeshDraft = std::vector<PrimitiveDraft>;
 /// The scene-describing half of the document, read by tinygltf.
 void read_model(const Document& document, tinygltf::Model& model);
 
-[[nodiscard]] std::vector<MaterialDraft> read_materials(const Document& document, const tinygltf::Model& model, TextureSet& textures,
-                                                        Warnings& warnings);
+[[nodiscard]] std::vector<MaterialDraft> read_materials(const Document& document, const tinygltf::Model& model,
+                                                        TextureSet& textures, Warnings& warnings);
 [[nodiscard]] std::vector<MeshDraft> read_meshes(const Document& document, const std::vector<MaterialDraft>& materials,
                                                  Warnings& warnings);
 
@@ -51,7 +51,8 @@ struct DracoPrimitive {
     };
     std::vector<Attribute> attributes;
 };
-[[nodiscard]] DracoPrimitive decode_draco(const Document& document, const Json& primitive, const std::string& json_path);
+[[nodiscard]] DracoPrimitive decode_draco(const Document& document, const Json& primitive,
+                                          const std::string& json_path);
 
 [[nodiscard]] std::vector<Light> read_lights(const Document& document);
 
@@ -59,15 +60,16 @@ struct DracoPrimitive {
 [[nodiscard]] std::vector<std::optional<Camera>> read_cameras(const Document& document, const tinygltf::Model& model,
                                                               Warnings& warnings);
 /// Adds a camera at the world transform of each node that carries one.
-void add_cameras(const std::vector<std::optional<Camera>>& cameras, const tinygltf::Model& model, const std::vector<NodeId>& nodes,
-                 Scene& scene);
+void add_cameras(const std::vector<std::optional<Camera>>& cameras, const tinygltf::Model& model,
+                 const std::vector<NodeId>& nodes, Scene& scene);
 
 /// An animation whose channels drive nodes by their number in the file.
 struct AnimationDraft {
     Animation animation;
     std::vector<std::size_t> target_nodes;  ///< one a channel
 };
-[[nodiscard]] std::vector<AnimationDraft> read_animations(const Document& document, const tinygltf::Model& model, Warnings& warnings);
+[[nodiscard]] std::vector<AnimationDraft> read_animations(const Document& document, const tinygltf::Model& model,
+                                                          Warnings& warnings);
 /// Adds them with their nodes' handles; channels of nodes outside the scene are left out.
 void add_animations(std::vector<AnimationDraft> drafts, const std::vector<NodeId>& nodes, Scene& scene);
 

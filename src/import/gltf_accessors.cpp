@@ -19,9 +19,12 @@ T load(const std::uint8_t* bytes) {
 
 std::uint32_t load_index(const std::uint8_t* bytes, ComponentType type) {
     switch (type) {
-        case ComponentType::u8: return *bytes;
-        case ComponentType::u16: return load<std::uint16_t>(bytes);
-        default: return load<std::uint32_t>(bytes);
+        case ComponentType::u8:
+            return *bytes;
+        case ComponentType::u16:
+            return load<std::uint16_t>(bytes);
+        default:
+            return load<std::uint32_t>(bytes);
     }
 }
 
@@ -36,12 +39,18 @@ float to_float(const std::uint8_t* bytes, bool normalized) {
 
 float component_to_float(const std::uint8_t* bytes, ComponentType type, bool normalized) {
     switch (type) {
-        case ComponentType::i8: return to_float<std::int8_t>(bytes, normalized);
-        case ComponentType::u8: return to_float<std::uint8_t>(bytes, normalized);
-        case ComponentType::i16: return to_float<std::int16_t>(bytes, normalized);
-        case ComponentType::u16: return to_float<std::uint16_t>(bytes, normalized);
-        case ComponentType::u32: return to_float<std::uint32_t>(bytes, normalized);
-        default: return load<float>(bytes);
+        case ComponentType::i8:
+            return to_float<std::int8_t>(bytes, normalized);
+        case ComponentType::u8:
+            return to_float<std::uint8_t>(bytes, normalized);
+        case ComponentType::i16:
+            return to_float<std::int16_t>(bytes, normalized);
+        case ComponentType::u16:
+            return to_float<std::uint16_t>(bytes, normalized);
+        case ComponentType::u32:
+            return to_float<std::uint32_t>(bytes, normalized);
+        default:
+            return load<float>(bytes);
     }
 }
 
@@ -68,7 +77,8 @@ void Document::read_floats(std::size_t index, int components, float* out, std::s
     const Accessor::Sparse& sparse = *accessor.sparse;
     const std::size_t element_size = size * std::size_t(accessor.components);
     for (std::size_t i = 0; i < sparse.count; ++i) {
-        const std::uint32_t element = load_index(sparse.indices.data() + i * size_of(sparse.index_type), sparse.index_type);
+        const std::uint32_t element =
+            load_index(sparse.indices.data() + i * size_of(sparse.index_type), sparse.index_type);
         if (element >= accessor.count)
             refuse(json_path, fmt::format("sparse index {} is past the last element {}", element, accessor.count - 1));
         write(element, sparse.values.data() + i * element_size);
@@ -121,7 +131,8 @@ std::vector<std::uint8_t> decode_meshopt(const Document& document, const Json& e
     const bool quaternion = filter == "QUATERNION" && stride == 8;
     const bool exponential = filter == "EXPONENTIAL" && stride % 4 == 0;
     if (!attributes || (!octahedral && !quaternion && !exponential))
-        document.refuse(json_path, fmt::format("filter {} does not go with mode {} and byteStride {}", filter, mode, stride));
+        document.refuse(json_path,
+                        fmt::format("filter {} does not go with mode {} and byteStride {}", filter, mode, stride));
     if (octahedral) meshopt_decodeFilterOct(bytes.data(), count, stride);
     if (quaternion) meshopt_decodeFilterQuat(bytes.data(), count, stride);
     if (exponential) meshopt_decodeFilterExp(bytes.data(), count, stride);

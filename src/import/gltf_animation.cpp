@@ -11,14 +11,17 @@ struct Notes {
 };
 
 /// One channel, or nothing where it drives what is not read.
-std::optional<AnimationChannel> read_channel(const Document& document, const tinygltf::Animation& animation, std::size_t index,
-                                             const std::string& at, Notes& notes) {
+std::optional<AnimationChannel> read_channel(const Document& document, const tinygltf::Animation& animation,
+                                             std::size_t index, const std::string& at, Notes& notes) {
     const tinygltf::AnimationChannel& source = animation.channels[index];
     const tinygltf::AnimationSampler& sampler = animation.samplers[std::size_t(source.sampler)];
     AnimationChannel channel;
-    if (source.target_path == "translation") channel.property = AnimatedProperty::node_translation;
-    else if (source.target_path == "rotation") channel.property = AnimatedProperty::node_rotation;
-    else if (source.target_path == "scale") channel.property = AnimatedProperty::node_scale;
+    if (source.target_path == "translation")
+        channel.property = AnimatedProperty::node_translation;
+    else if (source.target_path == "rotation")
+        channel.property = AnimatedProperty::node_rotation;
+    else if (source.target_path == "scale")
+        channel.property = AnimatedProperty::node_scale;
     else {
         notes.weights |= source.target_path == "weights";
         notes.others |= source.target_path != "weights";
@@ -26,10 +29,15 @@ std::optional<AnimationChannel> read_channel(const Document& document, const tin
     }
     // A channel without a node is to be ignored (glTF 2.0, section 3.11).
     if (source.target_node < 0) return std::nullopt;
-    if (sampler.interpolation == "STEP") channel.interpolation = Interpolation::step;
-    else if (sampler.interpolation == "LINEAR") channel.interpolation = Interpolation::linear;
-    else if (sampler.interpolation == "CUBICSPLINE") channel.interpolation = Interpolation::cubic;
-    else document.refuse(at, "expected interpolation STEP, LINEAR or CUBICSPLINE, found \"" + sampler.interpolation + "\"");
+    if (sampler.interpolation == "STEP")
+        channel.interpolation = Interpolation::step;
+    else if (sampler.interpolation == "LINEAR")
+        channel.interpolation = Interpolation::linear;
+    else if (sampler.interpolation == "CUBICSPLINE")
+        channel.interpolation = Interpolation::cubic;
+    else
+        document.refuse(at,
+                        "expected interpolation STEP, LINEAR or CUBICSPLINE, found \"" + sampler.interpolation + "\"");
 
     const int width = channel.property == AnimatedProperty::node_rotation ? 4 : 3;
     const std::size_t input = std::size_t(sampler.input), output = std::size_t(sampler.output);
@@ -37,13 +45,15 @@ std::optional<AnimationChannel> read_channel(const Document& document, const tin
     const std::size_t values = keys * (channel.interpolation == Interpolation::cubic ? 3 : 1);
     if (document.accessor(input).components != 1) document.refuse(at, "expected scalar key times");
     if (document.accessor(output).components != width || document.accessor(output).count != values)
-        document.refuse(at, fmt::format("expected {} values of {} components for {} keys, found {} of {}", values, width, keys,
-                                        document.accessor(output).count, document.accessor(output).components));
+        document.refuse(
+            at, fmt::format("expected {} values of {} components for {} keys, found {} of {}", values, width, keys,
+                            document.accessor(output).count, document.accessor(output).components));
     channel.times_s.resize(keys);
     document.read_floats(input, 1, channel.times_s.data(), at + ".input");
     for (std::size_t i = 1; i < keys; ++i)
         if (!(channel.times_s[i] > channel.times_s[i - 1]))
-            document.refuse(at + ".input", fmt::format("expected increasing key times, found {} after {}", channel.times_s[i], channel.times_s[i - 1]));
+            document.refuse(at + ".input", fmt::format("expected increasing key times, found {} after {}",
+                                                       channel.times_s[i], channel.times_s[i - 1]));
     channel.values.resize(values * std::size_t(width));
     document.read_floats(output, width, channel.values.data(), at + ".output");
     return channel;
@@ -51,7 +61,8 @@ std::optional<AnimationChannel> read_channel(const Document& document, const tin
 
 }  // namespace
 
-std::vector<AnimationDraft> read_animations(const Document& document, const tinygltf::Model& model, Warnings& warnings) {
+std::vector<AnimationDraft> read_animations(const Document& document, const tinygltf::Model& model,
+                                            Warnings& warnings) {
     std::vector<AnimationDraft> drafts;
     Notes notes;
     for (std::size_t i = 0; i < model.animations.size(); ++i) {
@@ -71,7 +82,8 @@ std::vector<AnimationDraft> read_animations(const Document& document, const tiny
     }
     if (notes.weights) warnings.push_back({document.path().string(), "ignores animated morph weights"});
     if (notes.others)
-        warnings.push_back({document.path().string(), "ignores animations of anything but nodes' translation, rotation and scale"});
+        warnings.push_back(
+            {document.path().string(), "ignores animations of anything but nodes' translation, rotation and scale"});
     return drafts;
 }
 

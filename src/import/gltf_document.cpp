@@ -42,10 +42,13 @@ int base64_digit(char c) {
 std::size_t size_of(ComponentType type) {
     switch (type) {
         case ComponentType::i8:
-        case ComponentType::u8: return 1;
+        case ComponentType::u8:
+            return 1;
         case ComponentType::i16:
-        case ComponentType::u16: return 2;
-        default: return 4;
+        case ComponentType::u16:
+            return 2;
+        default:
+            return 4;
     }
 }
 
@@ -61,7 +64,9 @@ Document::Document(const std::filesystem::path& path, Warnings& warnings) : path
     load_data_pictures();
 }
 
-std::string Document::where(std::string_view json_path) const { return fmt::format("{}: {}", path_.string(), json_path); }
+std::string Document::where(std::string_view json_path) const {
+    return fmt::format("{}: {}", path_.string(), json_path);
+}
 
 void Document::refuse(std::string_view json_path, std::string message) const {
     import::refuse(where(json_path), std::move(message));
@@ -79,14 +84,17 @@ void Document::split_container(Warnings& warnings) {
         parse_json(file_, 0);
         return;
     }
-    if (file_.size() < 20) complain(fmt::format("binary glTF is cut off: {} bytes, its header alone has 20", file_.size()));
+    if (file_.size() < 20)
+        complain(fmt::format("binary glTF is cut off: {} bytes, its header alone has 20", file_.size()));
     if (const std::uint32_t version = little_endian_32(file_, 4); version != 2)
         complain(fmt::format("expected binary glTF version 2, found {}", version));
     const std::size_t length = little_endian_32(file_, 8);
     if (length > file_.size())
-        complain(fmt::format("binary glTF is cut off: its header says {} bytes, the file has {}", length, file_.size()));
+        complain(
+            fmt::format("binary glTF is cut off: its header says {} bytes, the file has {}", length, file_.size()));
     if (length < file_.size())
-        warnings.push_back({path_.string(), fmt::format("ignores {} bytes behind the end of the binary glTF", file_.size() - length)});
+        warnings.push_back(
+            {path_.string(), fmt::format("ignores {} bytes behind the end of the binary glTF", file_.size() - length)});
     std::size_t offset = 12;
     bool has_json = false;
     while (length - offset >= 8) {
@@ -123,7 +131,8 @@ void Document::parse_json(std::string_view text, std::size_t offset) {
         const std::size_t byte = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
         const std::string_view before = text.substr(0, byte);
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-        const std::size_t column = byte - (before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1) + 1;
+        const std::size_t column =
+            byte - (before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1) + 1;
         if (offset > 0)
             import::refuse(path_.string(), fmt::format("JSON chunk is damaged at byte {}: {}", offset + byte, message));
         import::refuse(fmt::format("{}:{}:{}", path_.string(), line, column), message);
@@ -210,7 +219,8 @@ Bytes Document::slice(Bytes bytes, const Json& object, std::string_view json_pat
     const std::size_t offset = unsigned_member(*this, object, "byteOffset", 0, json_path);
     const std::size_t length = unsigned_member(*this, object, "byteLength", {}, json_path);
     if (offset > bytes.size() || length > bytes.size() - offset)
-        refuse(json_path, fmt::format("bytes {} to {} + {} lie outside its buffer of {} bytes", offset, offset, length, bytes.size()));
+        refuse(json_path, fmt::format("bytes {} to {} + {} lie outside its buffer of {} bytes", offset, offset, length,
+                                      bytes.size()));
     return bytes.subspan(offset, length);
 }
 
@@ -244,12 +254,12 @@ void Document::load_accessors() {
                 refuse(path + ".componentType", fmt::format("expected 5120 to 5123, 5125 or 5126, found {}", type));
             return ComponentType(type);
         };
-        const auto fits = [&](Bytes bytes, std::size_t offset, std::size_t count, std::size_t stride, std::size_t element,
-                              const std::string& path) {
+        const auto fits = [&](Bytes bytes, std::size_t offset, std::size_t count, std::size_t stride,
+                              std::size_t element, const std::string& path) {
             const std::optional<std::size_t> span = span_of(count, stride, element);
             if (!span || offset > bytes.size() || *span > bytes.size() - offset)
-                refuse(path, fmt::format("{} elements of {} bytes from byte {} do not fit its buffer view of {} bytes", count,
-                                         element, offset, bytes.size()));
+                refuse(path, fmt::format("{} elements of {} bytes from byte {} do not fit its buffer view of {} bytes",
+                                         count, element, offset, bytes.size()));
             return bytes.subspan(offset, *span);
         };
         Accessor accessor;
@@ -258,7 +268,8 @@ void Document::load_accessors() {
         if (accessor.count == 0 || accessor.count > (std::size_t(1) << 31))
             refuse(at + ".count", fmt::format("expected 1 to 2^31 elements, found {}", accessor.count));
         accessor.type = component(json, at);
-        const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return json.value("type", "") == t.first; });
+        const auto type =
+            std::find_if(types.begin(), types.end(), [&](const auto& t) { return json.value("type", "") == t.first; });
         if (type == types.end()) refuse(at + ".type", "expected SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
         accessor.components = type->second;
         accessor.normalized = json.value("normalized", false);
@@ -267,9 +278,10 @@ void Document::load_accessors() {
             accessor.has_values = true;
             accessor.stride = views_[*view].stride ? views_[*view].stride : element;
             if (accessor.stride < element)
-                refuse(at, fmt::format("elements of {} bytes overlap at its buffer view's stride of {}", element, accessor.stride));
-            accessor.bytes = fits(views_[*view].bytes, unsigned_member(*this, json, "byteOffset", 0, at), accessor.count,
-                                  accessor.stride, element, at);
+                refuse(at, fmt::format("elements of {} bytes overlap at its buffer view's stride of {}", element,
+                                       accessor.stride));
+            accessor.bytes = fits(views_[*view].bytes, unsigned_member(*this, json, "byteOffset", 0, at),
+                                  accessor.count, accessor.stride, element, at);
         }
         if (json.contains("sparse")) {
             const Json& sparse = json["sparse"];
@@ -281,8 +293,8 @@ void Document::load_accessors() {
                 const std::string path = at + ".sparse." + key;
                 const auto view = index_member(*this, sparse[key], "bufferView", "bufferViews", path);
                 if (!view) refuse(path, "expected a bufferView");
-                return fits(views_[*view].bytes, unsigned_member(*this, sparse[key], "byteOffset", 0, path), result.count, size,
-                            size, path);
+                return fits(views_[*view].bytes, unsigned_member(*this, sparse[key], "byteOffset", 0, path),
+                            result.count, size, size, path);
             };
             result.indices = run("indices", size_of(result.index_type));
             result.values = run("values", element);
@@ -312,7 +324,9 @@ void Document::load_data_pictures() {
     }
 }
 
-Document::Picture Document::picture(std::size_t image) const { return pictures_[image]; }
+Document::Picture Document::picture(std::size_t image) const {
+    return pictures_[image];
+}
 
 void Document::release_bytes() {
     for (std::string* text : {&file_}) std::string().swap(*text);

@@ -92,7 +92,7 @@ private:
     [[nodiscard]] std::filesystem::path resolve(std::string_view uri) const;
 
     std::filesystem::path path_;
-    std::string file_;                                ///< the whole file
+    std::string file_;  ///< the whole file
     Bytes binary_chunk_;
     bool has_binary_chunk_ = false;
     Json json_;

@@ -11,15 +11,21 @@ namespace {
 /// Largest value of an integer type; 0 for those that are read as floats.
 float largest_value(draco::DataType type) {
     switch (type) {
-        case draco::DT_INT8: return 127.0f;
-        case draco::DT_UINT8: return 255.0f;
-        case draco::DT_INT16: return 32767.0f;
-        case draco::DT_UINT16: return 65535.0f;
-        default: return 0.0f;
+        case draco::DT_INT8:
+            return 127.0f;
+        case draco::DT_UINT8:
+            return 255.0f;
+        case draco::DT_INT16:
+            return 32767.0f;
+        case draco::DT_UINT16:
+            return 65535.0f;
+        default:
+            return 0.0f;
     }
 }
 
-void convert(const draco::PointAttribute& source, bool normalized, std::size_t points, DracoPrimitive::Attribute& target) {
+void convert(const draco::PointAttribute& source, bool normalized, std::size_t points,
+             DracoPrimitive::Attribute& target) {
     target.components = source.num_components();
     target.values.resize(points * std::size_t(target.components));
     const float largest = largest_value(source.data_type());
@@ -32,7 +38,8 @@ void convert(const draco::PointAttribute& source, bool normalized, std::size_t p
         }
         std::int32_t integers[4] = {};
         source.ConvertValue<std::int32_t>(value, std::int8_t(target.components), integers);
-        for (int c = 0; c < target.components; ++c) out[c] = normalized ? std::max(float(integers[c]) / largest, -1.0f) : float(integers[c]);
+        for (int c = 0; c < target.components; ++c)
+            out[c] = normalized ? std::max(float(integers[c]) / largest, -1.0f) : float(integers[c]);
     }
 }
 
@@ -46,7 +53,8 @@ DracoPrimitive decode_draco(const Document& document, const Json& primitive, con
     buffer.Init(reinterpret_cast<const char*>(view.bytes.data()), view.bytes.size());
     draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!decoded.ok()) document.refuse(at, fmt::format("draco cannot decode it: {}", decoded.status().error_msg_string()));
+    if (!decoded.ok())
+        document.refuse(at, fmt::format("draco cannot decode it: {}", decoded.status().error_msg_string()));
     const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
 
     DracoPrimitive result;
@@ -60,7 +68,8 @@ DracoPrimitive decode_draco(const Document& document, const Json& primitive, con
         if (source->num_components() < 1 || source->num_components() > 4)
             document.refuse(at + ".attributes." + name, "expected 1 to 4 components");
         // What the extension does not say, whether integers are normalized, the primitive's accessor does.
-        const auto accessor = index_member(document, primitive["attributes"], name.c_str(), "accessors", json_path + ".attributes");
+        const auto accessor =
+            index_member(document, primitive["attributes"], name.c_str(), "accessors", json_path + ".attributes");
         if (!accessor) document.refuse(at + ".attributes." + name, "expected the same attribute on the primitive");
         DracoPrimitive::Attribute attribute{.name = name};
         convert(*source, document.accessor(*accessor).normalized, result.vertex_count, attribute);

@@ -11,8 +11,12 @@ namespace {
 
 float number(const Document& document, const Json& object, const char* key, float fallback, const std::string& at) {
     if (!object.contains(key)) return fallback;
-    if (!object[key].is_number()) document.refuse(fmt::format("{}.{}", at, key), "expected a number, found " + object[key].dump());
-    return object[key].get<float>();
+    if (!object[key].is_number())
+        document.refuse(fmt::format("{}.{}", at, key), "expected a number, found " + object[key].dump());
+    const float value = object[key].get<float>();
+    if (!(value >= 0 && std::isfinite(value)))
+        document.refuse(fmt::format("{}.{}", at, key), "expected a number from 0 on, found " + object[key].dump());
+    return value;
 }
 
 glm::vec3 color(const Document& document, const Json& light, const std::string& at) {
@@ -20,7 +24,10 @@ glm::vec3 color(const Document& document, const Json& light, const std::string& 
     const Json& list = light["color"];
     if (!list.is_array() || list.size() != 3 || !list[0].is_number() || !list[1].is_number() || !list[2].is_number())
         document.refuse(at + ".color", "expected 3 numbers, found " + list.dump());
-    return {list[0].get<float>(), list[1].get<float>(), list[2].get<float>()};
+    const glm::vec3 rgb(list[0].get<float>(), list[1].get<float>(), list[2].get<float>());
+    if (!(rgb.x >= 0 && rgb.y >= 0 && rgb.z >= 0 && std::isfinite(rgb.x + rgb.y + rgb.z)))
+        document.refuse(at + ".color", "expected numbers from 0 on, found " + list.dump());
+    return rgb;
 }
 
 Light read_light(const Document& document, const Json& json, const std::string& at) {
@@ -29,16 +36,20 @@ Light read_light(const Document& document, const Json& json, const std::string& 
     light.intensity = number(document, json, "intensity", 1.0f, at) * color(document, json, at);
     light.range_m = number(document, json, "range", 0.0f, at);
     const std::string type = json.contains("type") && json["type"].is_string() ? json["type"].get<std::string>() : "";
-    if (type == "point") light.type = LightType::point;
-    else if (type == "directional") light.type = LightType::directional;
+    if (type == "point")
+        light.type = LightType::point;
+    else if (type == "directional")
+        light.type = LightType::directional;
     else if (type == "spot") {
         light.type = LightType::spot;
         const Json spot = json.value("spot", Json::object());
         light.inner_rad = number(document, spot, "innerConeAngle", 0.0f, at + ".spot");
         light.outer_rad = number(document, spot, "outerConeAngle", std::numbers::pi_v<float> / 4, at + ".spot");
-        const bool good = light.inner_rad >= 0 && light.inner_rad < light.outer_rad && light.outer_rad <= std::numbers::pi_v<float> / 2 + 1e-6f;
+        const bool good = light.inner_rad >= 0 && light.inner_rad < light.outer_rad &&
+                          light.outer_rad <= std::numbers::pi_v<float> / 2 + 1e-6f;
         if (!good)
-            document.refuse(at + ".spot", fmt::format("expected 0 ≤ inner < outer ≤ π/2, found {} and {}", light.inner_rad, light.outer_rad));
+            document.refuse(at + ".spot", fmt::format("expected 0 ≤ inner < outer ≤ π/2, found {} and {}",
+                                                      light.inner_rad, light.outer_rad));
     } else {
         document.refuse(at + ".type", "expected point, spot or directional, found \"" + type + "\"");
     }
@@ -65,7 +76,8 @@ std::vector<Light> read_lights(const Document& document) {
     return lights;
 }
 
-std::vector<std::optional<Camera>> read_cameras(const Document& document, const tinygltf::Model& model, Warnings& warnings) {
+std::vector<std::optional<Camera>> read_cameras(const Document& document, const tinygltf::Model& model,
+                                                Warnings& warnings) {
     std::vector<std::optional<Camera>> cameras(model.cameras.size());
     bool orthographic = false;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -85,8 +97,8 @@ std::vector<std::optional<Camera>> read_cameras(const Document& document, const 
     return cameras;
 }
 
-void add_cameras(const std::vector<std::optional<Camera>>& cameras, const tinygltf::Model& model, const std::vector<NodeId>& nodes,
-                 Scene& scene) {
+void add_cameras(const std::vector<std::optional<Camera>>& cameras, const tinygltf::Model& model,
+                 const std::vector<NodeId>& nodes, Scene& scene) {
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
         const int index = model.nodes[i].camera;
         if (index < 0 || !nodes[i] || !cameras[std::size_t(index)]) continue;
@@ -96,7 +108,8 @@ void add_cameras(const std::vector<std::optional<Camera>>& cameras, const tinygl
         Camera camera = *cameras[std::size_t(index)];
         if (!model.nodes[i].name.empty()) camera.name = model.nodes[i].name;
         camera.position = glm::vec3(world[3]);
-        camera.target = camera.position + glm::normalize(forward) * orbit_distance(scene, camera.position, glm::normalize(forward));
+        camera.target =
+            camera.position + glm::normalize(forward) * orbit_distance(scene, camera.position, glm::normalize(forward));
         camera.up = glm::normalize(up);
         scene.add_camera(std::move(camera));
     }

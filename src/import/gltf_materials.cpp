@@ -6,6 +6,7 @@
 #include <set>
 
 #include "import/gltf.h"
+#include "import/material_range.h"
 
 namespace heliodon::import::gltf {
 namespace {
@@ -24,9 +25,12 @@ struct Reference {
 
 Wrap wrap(int code) {
     switch (code) {
-        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE: return Wrap::clamp_to_edge;
-        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return Wrap::mirrored_repeat;
-        default: return Wrap::repeat;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::clamp_to_edge;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::mirrored_repeat;
+        default:
+            return Wrap::repeat;
     }
 }
 
@@ -36,7 +40,8 @@ SamplerState sampler_state(const tinygltf::Sampler& sampler) {
                           TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR};
     if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) state.magnify = Filter::nearest;
     if (std::find(nearest.begin(), nearest.end(), sampler.minFilter) != nearest.end()) state.minify = Filter::nearest;
-    state.mipmapped = sampler.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST && sampler.minFilter != TINYGLTF_TEXTURE_FILTER_LINEAR;
+    state.mipmapped =
+        sampler.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST && sampler.minFilter != TINYGLTF_TEXTURE_FILTER_LINEAR;
     return state;
 }
 
@@ -58,6 +63,8 @@ public:
         read_surface(source, json, draft);
         read_emission(source, json, draft);
         read_extensions(json, draft);
+        if (bring_into_range(material, document_.where(at_)))
+            notes_.insert("brings material factors outside their range into it");
         return draft;
     }
     /// What was approximated, once for the file.
@@ -66,8 +73,10 @@ public:
 private:
     void read_alpha(const tinygltf::Material& source, Material& material) {
         material.alpha_cutoff = float(source.alphaCutoff);
-        if (source.alphaMode == "MASK") material.alpha_mode = AlphaMode::mask;
-        else if (source.alphaMode == "BLEND") material.alpha_mode = AlphaMode::blend;
+        if (source.alphaMode == "MASK")
+            material.alpha_mode = AlphaMode::mask;
+        else if (source.alphaMode == "BLEND")
+            material.alpha_mode = AlphaMode::blend;
         else if (source.alphaMode != "OPAQUE")
             document_.refuse(at_ + ".alphaMode", "expected OPAQUE, MASK or BLEND, found \"" + source.alphaMode + "\"");
     }
@@ -85,12 +94,14 @@ private:
         TextureRecipe recipe = opaque ? opaque_image(reference->image, TextureFormat::srgb8, reference->sampler)
                                       : whole_image(reference->image, TextureFormat::srgb8, reference->sampler);
         if (draft.material.alpha_mode == AlphaMode::mask)
-            recipe.alpha_cutoff = draft.material.opacity > 0 ? draft.material.alpha_cutoff / draft.material.opacity : 1.0f;
+            recipe.alpha_cutoff =
+                draft.material.opacity > 0 ? draft.material.alpha_cutoff / draft.material.opacity : 1.0f;
         use(draft, &Material::base_color_texture, *reference, recipe);
     }
 
     void read_surface(const tinygltf::Material& source, const Json& json, MaterialDraft& draft) {
-        const auto rough_metal = texture(json.value("/pbrMetallicRoughness/metallicRoughnessTexture"_json_pointer, Json()));
+        const auto rough_metal =
+            texture(json.value("/pbrMetallicRoughness/metallicRoughnessTexture"_json_pointer, Json()));
         const auto occlusion = texture(json.value("occlusionTexture", Json()));
         draft.material.occlusion_strength = float(source.occlusionTexture.strength);
         const bool together = rough_metal && occlusion && rough_metal->same_lookup(*occlusion);
@@ -107,7 +118,8 @@ private:
                 opaque_image(occlusion->image, TextureFormat::linear8, occlusion->sampler));
         if (const auto normal = texture(json.value("normalTexture", Json()))) {
             draft.material.normal_scale = float(source.normalTexture.scale);
-            use(draft, &Material::normal_texture, *normal, opaque_image(normal->image, TextureFormat::linear8, normal->sampler));
+            use(draft, &Material::normal_texture, *normal,
+                opaque_image(normal->image, TextureFormat::linear8, normal->sampler));
         }
     }
 
@@ -127,9 +139,13 @@ private:
         Material& material = draft.material;
         if (const Json* ior = extension(json, "KHR_materials_ior")) {
             const float value = number(*ior, "ior", 1.5f);
-            if (value >= 1) material.ior = value;
-            else if (value == 0) notes_.insert("an index of refraction of 0 (full reflection) is taken as 1.5");
-            else document_.refuse(at_ + ".extensions.KHR_materials_ior.ior", fmt::format("expected 0 or at least 1, found {}", value));
+            if (value >= 1)
+                material.ior = value;
+            else if (value == 0)
+                notes_.insert("an index of refraction of 0 (full reflection) is taken as 1.5");
+            else
+                document_.refuse(at_ + ".extensions.KHR_materials_ior.ior",
+                                 fmt::format("expected 0 or at least 1, found {}", value));
         }
         if (const Json* transmission = extension(json, "KHR_materials_transmission")) {
             material.transmission = number(*transmission, "transmissionFactor", 0.0f);
@@ -159,12 +175,13 @@ private:
         }
     }
 
-    void linear(MaterialDraft& draft, TextureUse Material::* slot, const Json& object, const char* key) {
+    void linear(MaterialDraft& draft, TextureUse Material::*slot, const Json& object, const char* key) {
         if (const auto reference = texture(object.value(key, Json())))
             use(draft, slot, *reference, whole_image(reference->image, TextureFormat::linear8, reference->sampler));
     }
 
-    void use(MaterialDraft& draft, TextureUse Material::* slot, const Reference& reference, const TextureRecipe& recipe) {
+    void use(MaterialDraft& draft, TextureUse Material::*slot, const Reference& reference,
+             const TextureRecipe& recipe) {
         draft.material.*slot = reference.use;
         draft.slots.push_back({slot, textures_.add(recipe)});
     }
@@ -182,7 +199,8 @@ private:
         if (source.sampler >= 0) reference.sampler = sampler_state(model_.samplers[std::size_t(source.sampler)]);
         std::size_t set = info.value("texCoord", std::size_t(0));
         if (const Json* transform = extension(info, "KHR_texture_transform")) {
-            const glm::vec2 offset = pair(*transform, "offset", glm::vec2(0)), scale = pair(*transform, "scale", glm::vec2(1));
+            const glm::vec2 offset = pair(*transform, "offset", glm::vec2(0)),
+                            scale = pair(*transform, "scale", glm::vec2(1));
             const float angle = number(*transform, "rotation", 0.0f), c = std::cos(angle), s = std::sin(angle);
             // Counter-clockwise as seen with v running down, as the extension's first example has it.
             reference.use.uv_matrix = glm::mat2(c * scale.x, -s * scale.x, s * scale.y, c * scale.y);
@@ -206,8 +224,11 @@ private:
 
     float number(const Json& object, const char* key, float fallback) const {
         if (!object.contains(key)) return fallback;
-        if (!object[key].is_number()) document_.refuse(at_, fmt::format("expected a number for {}, found {}", key, object[key].dump()));
-        return object[key].get<float>();
+        if (!object[key].is_number())
+            document_.refuse(at_, fmt::format("expected a number for {}, found {}", key, object[key].dump()));
+        const float value = object[key].get<float>();
+        if (!std::isfinite(value)) document_.refuse(at_, fmt::format("expected a finite number for {}", key));
+        return value;
     }
     glm::vec3 color(const Json& object, const char* key) const {
         if (!object.contains(key)) return glm::vec3(1);
@@ -224,7 +245,8 @@ private:
         return {list[0].get<float>(), list[1].get<float>()};
     }
     glm::vec3 vector(const std::vector<double>& values, const char* key, std::size_t length) const {
-        if (values.size() != length) document_.refuse(fmt::format("{}.{}", at_, key), fmt::format("expected {} numbers", length));
+        if (values.size() != length)
+            document_.refuse(fmt::format("{}.{}", at_, key), fmt::format("expected {} numbers", length));
         return {float(values[0]), float(values[1]), float(values[2])};
     }
 
@@ -245,7 +267,8 @@ bool MaterialDraft::needs_tangents() const {
 }
 
 int MaterialDraft::normal_texcoord() const {
-    const bool bumped = std::any_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.use == &Material::bump_texture; });
+    const bool bumped =
+        std::any_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.use == &Material::bump_texture; });
     return bumped ? material.bump_texture.texcoord : material.normal_texture.texcoord;
 }
 

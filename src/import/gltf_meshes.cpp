@@ -45,8 +45,10 @@ public:
             for (std::size_t i = 0; i < vertex_count_; ++i)
                 for (int c = 0; c < width; ++c) {
                     const float missing = c == 3 ? 1.0f : 0.0f;
-                    result[i][c] = c < attribute->components ? attribute->values[i * attribute->components + c] : missing;
-                    if (!std::isfinite(result[i][c])) document_.refuse(path, fmt::format("element {} is not finite", i));
+                    result[i][c] =
+                        c < attribute->components ? attribute->values[i * attribute->components + c] : missing;
+                    if (!std::isfinite(result[i][c]))
+                        document_.refuse(path, fmt::format("element {} is not finite", i));
                 }
             return result;
         }
@@ -68,7 +70,8 @@ public:
         } else if (const auto accessor = index_member(document_, primitive_, "indices", "accessors", at_)) {
             const Accessor& source = document_.accessor(*accessor);
             const bool good = source.components == 1 && !source.normalized &&
-                              (source.type == ComponentType::u8 || source.type == ComponentType::u16 || source.type == ComponentType::u32);
+                              (source.type == ComponentType::u8 || source.type == ComponentType::u16 ||
+                               source.type == ComponentType::u32);
             if (!good) document_.refuse(at_ + ".indices", "expected scalars of unsigned bytes, shorts or ints");
             indices = document_.read_indices(*accessor);
         } else {
@@ -77,11 +80,12 @@ public:
         }
         for (std::size_t i = 0; i < indices.size(); ++i)
             if (indices[i] >= vertex_count_)
-                document_.refuse(at_ + ".indices", fmt::format("index {} at {} is out of range: there are {} vertices", indices[i], i,
-                                                               vertex_count_));
+                document_.refuse(at_ + ".indices", fmt::format("index {} at {} is out of range: there are {} vertices",
+                                                               indices[i], i, vertex_count_));
         if (mode != mode_triangles) return unrolled(indices, mode);
         if (indices.size() % 3 != 0)
-            document_.refuse(at_ + ".indices", fmt::format("expected whole triangles, found {} indices", indices.size()));
+            document_.refuse(at_ + ".indices",
+                             fmt::format("expected whole triangles, found {} indices", indices.size()));
         return indices;
     }
 
@@ -153,7 +157,8 @@ void complete(const MaterialDraft* material, Mesh& mesh, Tally& tally) {
         }
         tangent = glm::vec4(glm::vec3(tangent) / length, tangent.w < 0 ? -1.0f : 1.0f);
     }
-    if (material && material->needs_tangents() && mesh.tangents.empty()) make_tangents(mesh, material->normal_texcoord());
+    if (material && material->needs_tangents() && mesh.tangents.empty())
+        make_tangents(mesh, material->normal_texcoord());
 }
 
 void tell(const Document& document, const Tally& tally, Warnings& warnings) {
@@ -171,7 +176,8 @@ void tell(const Document& document, const Tally& tally, Warnings& warnings) {
 
 }  // namespace
 
-std::vector<MeshDraft> read_meshes(const Document& document, const std::vector<MaterialDraft>& materials, Warnings& warnings) {
+std::vector<MeshDraft> read_meshes(const Document& document, const std::vector<MaterialDraft>& materials,
+                                   Warnings& warnings) {
     std::vector<MeshDraft> meshes(document.count("meshes"));
     Tally tally;
     for (std::size_t m = 0; m < meshes.size(); ++m) {

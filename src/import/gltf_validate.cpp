@@ -10,9 +10,9 @@ namespace heliodon::import::gltf {
 namespace {
 
 constexpr std::array known_extensions = {
-    "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_ior",      "KHR_materials_transmission",
-    "KHR_materials_specular", "KHR_materials_clearcoat",        "KHR_materials_unlit",    "KHR_mesh_quantization",
-    "KHR_texture_transform",  "KHR_draco_mesh_compression",     "EXT_meshopt_compression"};
+    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",      "KHR_materials_transmission",
+    "KHR_materials_specular", "KHR_materials_clearcoat",         "KHR_materials_unlit",    "KHR_mesh_quantization",
+    "KHR_texture_transform",  "KHR_draco_mesh_compression",      "EXT_meshopt_compression"};
 
 bool is_known(const std::string& name) {
     return std::find(known_extensions.begin(), known_extensions.end(), name) != known_extensions.end();
@@ -22,7 +22,8 @@ void check_type(const Document& document, const Json& object, const char* key, b
                 const char* expected, std::string_view at) {
     const auto member = object.find(key);
     if (member != object.end() && !((*member).*is)())
-        document.refuse(fmt::format("{}.{}", at, key), fmt::format("expected {}, found {}", expected, member->type_name()));
+        document.refuse(fmt::format("{}.{}", at, key),
+                        fmt::format("expected {}, found {}", expected, member->type_name()));
 }
 
 void check_extensions(const Document& document, Warnings& warnings) {
@@ -35,17 +36,19 @@ void check_extensions(const Document& document, Warnings& warnings) {
             if (!name.is_string()) document.refuse(fmt::format("$.{}", list), "expected a list of names");
             if (is_known(name)) continue;
             if (std::string_view(list) == "extensionsRequired")
-                document.refuse("$.extensionsRequired",
-                                fmt::format("the file needs the extension {}, which is not read here", name.get<std::string>()));
+                document.refuse(
+                    "$.extensionsRequired",
+                    fmt::format("the file needs the extension {}, which is not read here", name.get<std::string>()));
             unknown += (unknown.empty() ? "" : ", ") + name.get<std::string>();
         }
-        if (!unknown.empty()) warnings.push_back({document.where("$.extensionsUsed"), "ignores what is not read here: " + unknown});
+        if (!unknown.empty())
+            warnings.push_back({document.where("$.extensionsUsed"), "ignores what is not read here: " + unknown});
     }
 }
 
 void check_arrays(const Document& document) {
-    for (const char* name : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes",
-                             "nodes", "samplers", "scenes", "skins", "textures"}) {
+    for (const char* name : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
+                             "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
         const auto array = document.json().find(name);
         if (array == document.json().end()) continue;
         if (!array->is_array()) document.refuse(fmt::format("$.{}", name), "expected a list");
@@ -77,7 +80,8 @@ void check_accessors(const Document& document) {
         if (!index_member(document, view, "buffer", "buffers", at)) document.refuse(at, "expected a buffer");
         if (const Json* meshopt = extension(view, "EXT_meshopt_compression")) {
             const std::string inside = at + ".extensions.EXT_meshopt_compression";
-            if (!index_member(document, *meshopt, "buffer", "buffers", inside)) document.refuse(inside, "expected a buffer");
+            if (!index_member(document, *meshopt, "buffer", "buffers", inside))
+                document.refuse(inside, "expected a buffer");
             check_type(document, *meshopt, "mode", &Json::is_string, "a string", inside);
             check_type(document, *meshopt, "filter", &Json::is_string, "a string", inside);
         }
@@ -98,8 +102,10 @@ void check_primitive(const Document& document, const Json& primitive, const std:
     const Json* draco = extension(primitive, "KHR_draco_mesh_compression");
     if (!draco) return;
     const std::string inside = at + ".extensions.KHR_draco_mesh_compression";
-    if (!index_member(document, *draco, "bufferView", "bufferViews", inside)) document.refuse(inside, "expected a bufferView");
-    if (!draco->contains("attributes") || !(*draco)["attributes"].is_object()) document.refuse(inside, "expected attributes");
+    if (!index_member(document, *draco, "bufferView", "bufferViews", inside))
+        document.refuse(inside, "expected a bufferView");
+    if (!draco->contains("attributes") || !(*draco)["attributes"].is_object())
+        document.refuse(inside, "expected attributes");
     for (const auto& [name, id] : (*draco)["attributes"].items())
         (void)unsigned_member(document, (*draco)["attributes"], name.c_str(), {}, inside + ".attributes");
 }
@@ -108,13 +114,15 @@ void check_meshes(const Document& document) {
     for (std::size_t i = 0; i < document.count("meshes"); ++i) {
         const Json& mesh = document.json()["meshes"][i];
         const std::string at = fmt::format("$.meshes[{}]", i);
-        if (!mesh.contains("primitives") || !mesh["primitives"].is_array()) document.refuse(at, "expected a list of primitives");
+        if (!mesh.contains("primitives") || !mesh["primitives"].is_array())
+            document.refuse(at, "expected a list of primitives");
         for (std::size_t p = 0; p < mesh["primitives"].size(); ++p)
             check_primitive(document, mesh["primitives"][p], fmt::format("{}.primitives[{}]", at, p));
     }
 }
 
-void check_numbers(const Document& document, const Json& object, const char* key, std::size_t length, std::string_view at) {
+void check_numbers(const Document& document, const Json& object, const char* key, std::size_t length,
+                   std::string_view at) {
     if (!object.contains(key)) return;
     const Json& list = object[key];
     const bool good = list.is_array() && list.size() == length &&
@@ -143,10 +151,12 @@ void check_nodes(const Document& document) {
             const Json& child = node["children"][c];
             const std::string child_at = fmt::format("{}.children[{}]", at, c);
             if (!child.is_number_unsigned() || child.get<std::size_t>() >= count)
-                document.refuse(child_at, fmt::format("expected a node from 0 to {}, found {}", count - 1, child.dump()));
+                document.refuse(child_at,
+                                fmt::format("expected a node from 0 to {}, found {}", count - 1, child.dump()));
             std::size_t& parent_of_child = parent[child.get<std::size_t>()];
             if (parent_of_child != none)
-                document.refuse(child_at, fmt::format("node {} has two parents, {} and {}", child.get<std::size_t>(), parent_of_child, i));
+                document.refuse(child_at, fmt::format("node {} has two parents, {} and {}", child.get<std::size_t>(),
+                                                      parent_of_child, i));
             parent_of_child = i;
         }
     }
@@ -156,7 +166,8 @@ void check_nodes(const Document& document) {
         std::vector<std::size_t> path;
         for (std::size_t at = i; at != none && !reaches_root[at]; at = parent[at]) {
             path.push_back(at);
-            if (path.size() > count) document.refuse(fmt::format("$.nodes[{}]", at), "is its own ancestor: the nodes form a cycle");
+            if (path.size() > count)
+                document.refuse(fmt::format("$.nodes[{}]", at), "is its own ancestor: the nodes form a cycle");
         }
         for (const std::size_t node : path) reaches_root[node] = 1;
     }
@@ -173,7 +184,8 @@ void check_scenes(const Document& document) {
         for (const Json& node : scene["nodes"]) {
             if (!node.is_number_unsigned() || node.get<std::size_t>() >= document.count("nodes"))
                 document.refuse(at, fmt::format("node {} does not exist", node.dump()));
-            if (!seen.insert(node.get<std::size_t>()).second) document.refuse(at, fmt::format("names node {} twice", node.dump()));
+            if (!seen.insert(node.get<std::size_t>()).second)
+                document.refuse(at, fmt::format("names node {} twice", node.dump()));
         }
     }
 }
@@ -184,7 +196,8 @@ void check_texture_references(const Document& document, const Json& object, cons
         if (!value.is_object() || key == "extras") continue;
         const std::string inside = at + "." + key;
         if (key.ends_with("Texture")) {
-            if (!index_member(document, value, "index", "textures", inside)) document.refuse(inside, "expected an index");
+            if (!index_member(document, value, "index", "textures", inside))
+                document.refuse(inside, "expected an index");
             (void)unsigned_member(document, value, "texCoord", 0, inside);
         }
         check_texture_references(document, value, inside);
@@ -225,7 +238,8 @@ void check_animations(const Document& document) {
             const std::string inside = fmt::format("{}.channels[{}]", at, c);
             if (unsigned_member(document, channel, "sampler", {}, inside) >= animation["samplers"].size())
                 document.refuse(inside + ".sampler", "does not exist");
-            if (!channel.contains("target") || !channel["target"].is_object()) document.refuse(inside + ".target", "expected an object");
+            if (!channel.contains("target") || !channel["target"].is_object())
+                document.refuse(inside + ".target", "expected an object");
             (void)index_member(document, channel["target"], "node", "nodes", inside + ".target");
         }
     }
@@ -233,8 +247,8 @@ void check_animations(const Document& document) {
 
 }  // namespace
 
-std::size_t unsigned_member(const Document& document, const Json& object, const char* key, std::optional<std::size_t> fallback,
-                            std::string_view json_path) {
+std::size_t unsigned_member(const Document& document, const Json& object, const char* key,
+                            std::optional<std::size_t> fallback, std::string_view json_path) {
     if (!object.is_object()) document.refuse(json_path, "expected an object");
     const auto member = object.find(key);
     if (member == object.end()) {
@@ -242,17 +256,18 @@ std::size_t unsigned_member(const Document& document, const Json& object, const 
         return *fallback;
     }
     if (!member->is_number_unsigned())
-        document.refuse(fmt::format("{}.{}", json_path, key), fmt::format("expected a whole number from 0 on, found {}", member->dump()));
+        document.refuse(fmt::format("{}.{}", json_path, key),
+                        fmt::format("expected a whole number from 0 on, found {}", member->dump()));
     return member->get<std::size_t>();
 }
 
-std::optional<std::size_t> index_member(const Document& document, const Json& object, const char* key, const char* array,
-                                        std::string_view json_path) {
+std::optional<std::size_t> index_member(const Document& document, const Json& object, const char* key,
+                                        const char* array, std::string_view json_path) {
     if (object.is_object() && !object.contains(key)) return std::nullopt;
     const std::size_t index = unsigned_member(document, object, key, {}, json_path);
     if (index >= document.count(array))
-        document.refuse(fmt::format("{}.{}", json_path, key),
-                        fmt::format("index {} is out of range: {} has {} entries", index, array, document.count(array)));
+        document.refuse(fmt::format("{}.{}", json_path, key), fmt::format("index {} is out of range: {} has {} entries",
+                                                                          index, array, document.count(array)));
     return index;
 }
 

@@ -10,14 +10,16 @@ namespace heliodon {
 
 /// Reads a model by its ending (.obj, .gltf, .glb) into `scene` below `parent`; returns its root node.
 /// What was approximated or ignored is told in `warnings`, one message each.
-[[nodiscard]] Result<NodeId> import_model(Scene& scene, NodeId parent, const std::filesystem::path& path, Warnings& warnings);
+[[nodiscard]] Result<NodeId> import_model(Scene& scene, NodeId parent, const std::filesystem::path& path,
+                                          Warnings& warnings);
 
 /// The reader functions that read_scene_file wants.
 [[nodiscard]] SceneFileReaders scene_file_readers();
 
 /// Any SCENE of the command line: a scene file, or a model made presentable with a default camera, sky
 /// and exposure.
-[[nodiscard]] Result<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides, Warnings& warnings);
+[[nodiscard]] Result<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,
+                                       Warnings& warnings);
 
 /// Decodes one picture file into a texture with its mip chain (sRGB-correct filtering).
 [[nodiscard]] Result<Texture> load_texture(const std::filesystem::path& path, TextureFormat format);

@@ -13,10 +13,12 @@ namespace heliodon {
 Result<NodeId> import_model(Scene& scene, NodeId parent, const std::filesystem::path& path, Warnings& warnings) {
     return import::guarded(path, [&] {
         std::string ending = path.extension().string();
-        std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+        std::transform(ending.begin(), ending.end(), ending.begin(),
+                       [](unsigned char c) { return char(std::tolower(c)); });
         if (ending == ".obj") return import::import_obj(scene, parent, path, warnings);
         if (ending == ".gltf" || ending == ".glb") return import::import_gltf(scene, parent, path, warnings);
-        import::refuse(path.string(), fmt::format("expected a model that ends in .obj, .gltf or .glb, found \"{}\"", ending));
+        import::refuse(path.string(),
+                       fmt::format("expected a model that ends in .obj, .gltf or .glb, found \"{}\"", ending));
     });
 }
 

@@ -16,7 +16,9 @@ constexpr double pi = std::numbers::pi;
 /// Mean reflectance that exposure meters assume (ISO 2720:1974 reduces to it): an 18 % grey card.
 constexpr double grey_card = 0.18;
 
-double luminance(glm::vec3 rgb) { return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722)); }
+double luminance(glm::vec3 rgb) {
+    return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
 
 bool has_lights(const Scene& scene) {
     bool found = false;
@@ -50,12 +52,16 @@ double emitted_flux(const Scene& scene) {
         for (const Part& part : node.parts) {
             const Material* material = scene.materials().find(part.material);
             const Geometry* geometry = scene.geometries().find(part.geometry);
-            if (!material || !geometry || material->model == MaterialModel::unlit || luminance(material->emission_nits) <= 0) continue;
+            if (!material || !geometry || material->model == MaterialModel::unlit ||
+                luminance(material->emission_nits) <= 0)
+                continue;
             const glm::mat4 world = scene.world_matrix(id);
             const Mesh& mesh = geometry->mesh;
             double area = 0;
             for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-                const auto corner = [&](std::size_t k) { return glm::vec3(world * glm::vec4(mesh.positions[mesh.indices[i + k]], 1)); };
+                const auto corner = [&](std::size_t k) {
+                    return glm::vec3(world * glm::vec4(mesh.positions[mesh.indices[i + k]], 1));
+                };
                 area += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
             }
             flux += pi * luminance(material->emission_nits) * area;
@@ -74,8 +80,10 @@ double mean_illuminance(const Scene& scene) {
     double flux = emitted_flux(scene), illuminance = pi * mean_sky_luminance(scene);
     scene.nodes().each([&](NodeId, const Node& node) {
         if (!node.light) return;
-        if (node.light->type == LightType::directional) illuminance += luminance(node.light->intensity) / 2;
-        else flux += flux_lm(*node.light);
+        if (node.light->type == LightType::directional)
+            illuminance += luminance(node.light->intensity) / 2;
+        else
+            flux += flux_lm(*node.light);
     });
     return area > 0 ? illuminance + flux / area : illuminance;
 }
@@ -125,7 +133,8 @@ Texture overcast_sky() {
         const double elevation = pi / 2 - pi * (y + 0.5) / height;
         const double nits = elevation > 0 ? zenith * (1 + 2 * std::sin(elevation)) / 3 : ground;
         const glm::vec4 texel(glm::vec3(float(nits)), 1.0f);
-        for (int x = 0; x < width; ++x) std::memcpy(&level[(std::size_t(y) * width + x) * sizeof texel], &texel, sizeof texel);
+        for (int x = 0; x < width; ++x)
+            std::memcpy(&level[(std::size_t(y) * width + x) * sizeof texel], &texel, sizeof texel);
     }
     build_mip_chain(sky);
     return sky;
@@ -139,7 +148,8 @@ void make_presentable(Scene& scene, const std::string& where, bool is_model, War
         sky.luminance_nits = glm::vec3(1);
         sky.image = scene.add_texture(overcast_sky());
         scene.set_sky(sky);
-        warnings.push_back({where, fmt::format("has no lights: stands under an overcast sky of {:.0f} lx", overcast_lux)});
+        warnings.push_back(
+            {where, fmt::format("has no lights: stands under an overcast sky of {:.0f} lx", overcast_lux)});
     }
     if (bring_camera) {
         scene.add_camera(framing_camera(scene.bounds()));
@@ -156,7 +166,10 @@ void make_presentable(Scene& scene, const std::string& where, bool is_model, War
         camera.ev100_override = *ev100;
         scene.set_camera(id, std::move(camera));
     }
-    warnings.push_back({where, fmt::format("has no exposure: EV100 {:.2f} is taken, what a meter reads of an 18 % grey card in its light", *ev100)});
+    warnings.push_back(
+        {where,
+         fmt::format("has no exposure: EV100 {:.2f} is taken, what a meter reads of an 18 % grey card in its light",
+                     *ev100)});
 }
 
 /// A scene file may give a normal map to a model that came without tangents.
@@ -166,9 +179,12 @@ void make_missing_tangents(Scene& scene) {
         for (const Part& part : node.parts) {
             const Material* material = scene.materials().find(part.material);
             const Geometry* geometry = scene.geometries().find(part.geometry);
-            if (!material || !geometry || (!material->normal_texture.texture && !material->bump_texture.texture)) continue;
-            const int set = material->normal_texture.texture ? material->normal_texture.texcoord : material->bump_texture.texcoord;
-            if (geometry->mesh.tangents.empty() && !geometry->mesh.texcoords[set].empty()) lacking.push_back({part.geometry, set});
+            if (!material || !geometry || (!material->normal_texture.texture && !material->bump_texture.texture))
+                continue;
+            const int set =
+                material->normal_texture.texture ? material->normal_texture.texcoord : material->bump_texture.texcoord;
+            if (geometry->mesh.tangents.empty() && !geometry->mesh.texcoords[set].empty())
+                lacking.push_back({part.geometry, set});
         }
     });
     for (const auto& [id, set] : lacking) {
@@ -187,8 +203,10 @@ Result<Scene> model_alone(const std::filesystem::path& path, Warnings& warnings)
 }
 
 /// The scene file that would hold the model alone, so that its fields can be overridden.
-Result<Scene> model_with_overrides(const std::filesystem::path& path, std::span<const Override> overrides, Warnings& warnings) {
-    const nlohmann::json text = {{"heliodon", 1}, {"nodes", {{{"name", path.stem().string()}, {"mesh", path.filename().string()}}}}};
+Result<Scene> model_with_overrides(const std::filesystem::path& path, std::span<const Override> overrides,
+                                   Warnings& warnings) {
+    const nlohmann::json text = {{"heliodon", 1},
+                                 {"nodes", {{{"name", path.stem().string()}, {"mesh", path.filename().string()}}}}};
     return parse_scene(text.dump(), path.string(), path.parent_path(), overrides, scene_file_readers(), warnings);
 }
 
@@ -202,7 +220,8 @@ Result<Scene> load_scene(const std::filesystem::path& path, std::span<const Over
         make_presentable(*scene, path.string(), false, warnings);
         return scene;
     }
-    Result<Scene> scene = overrides.empty() ? model_alone(path, warnings) : model_with_overrides(path, overrides, warnings);
+    Result<Scene> scene =
+        overrides.empty() ? model_alone(path, warnings) : model_with_overrides(path, overrides, warnings);
     if (!scene) return scene;
     make_missing_tangents(*scene);
     make_presentable(*scene, path.string(), true, warnings);

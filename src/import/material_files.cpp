@@ -8,15 +8,20 @@ TextureSlots add_material_files(const MaterialFiles& source, TextureSet& set) {
     const auto image = [&](const std::filesystem::path& file) {
         return file.empty() ? -1 : set.add_image({file.string(), file.lexically_normal(), {}});
     };
-    const auto add = [&](TextureUse Material::* slot, const TextureRecipe& recipe) { slots.push_back({slot, set.add(recipe)}); };
-    const auto whole = [&](TextureUse Material::* slot, const std::filesystem::path& file, TextureFormat format) {
+    const auto add = [&](TextureUse Material::*slot, const TextureRecipe& recipe) {
+        slots.push_back({slot, set.add(recipe)});
+    };
+    const auto whole = [&](TextureUse Material::*slot, const std::filesystem::path& file, TextureFormat format) {
         if (!file.empty()) add(slot, opaque_image(image(file), format, source.sampler));
     };
     if (!files.base_color.empty() || !files.opacity.empty()) {
         TextureRecipe recipe{.format = TextureFormat::srgb8, .sampler = source.sampler};
-        if (!files.base_color.empty()) recipe = whole_image(image(files.base_color), TextureFormat::srgb8, source.sampler);
-        if (source.alpha_mode == AlphaMode::opaque) recipe.channels[3] = {};
-        else if (!files.opacity.empty()) recipe.opacity = {image(files.opacity), 0};
+        if (!files.base_color.empty())
+            recipe = whole_image(image(files.base_color), TextureFormat::srgb8, source.sampler);
+        if (source.alpha_mode == AlphaMode::opaque)
+            recipe.channels[3] = {};
+        else if (!files.opacity.empty())
+            recipe.opacity = {image(files.opacity), 0};
         recipe.alpha_cutoff = source.alpha_cutoff;
         add(&Material::base_color_texture, recipe);
     }

@@ -104,7 +104,8 @@ std::vector<glm::vec3> corner_normals(const Mesh& mesh, float crease_rad) {
         for (const std::uint32_t corner : corners) {
             glm::vec3 sum = compare ? glm::vec3(0) : all;
             for (std::size_t j = 0; compare && j < corners.size(); ++j)
-                if (glm::dot(faces[corner / 3], faces[corners[j] / 3]) >= least_cosine) sum += angles[corners[j]] * faces[corners[j] / 3];
+                if (glm::dot(faces[corner / 3], faces[corners[j] / 3]) >= least_cosine)
+                    sum += angles[corners[j]] * faces[corners[j] / 3];
             normals[corner] = normalized_or(sum, faces[corner / 3]);
         }
     }

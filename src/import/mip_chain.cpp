@@ -14,7 +14,9 @@ float srgb_to_linear(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-std::uint8_t to_byte(float value) { return std::uint8_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f); }
+std::uint8_t to_byte(float value) {
+    return std::uint8_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
 
 const std::array<float, 256>& srgb_table() {
     static const std::array<float, 256> table = [] {

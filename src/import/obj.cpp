@@ -41,7 +41,8 @@ struct Group {
 
 class ObjFile {
 public:
-    ObjFile(const std::filesystem::path& path, Warnings& warnings) : path_(path), materials_(path.parent_path(), warnings) {}
+    ObjFile(const std::filesystem::path& path, Warnings& warnings)
+        : path_(path), materials_(path.parent_path(), warnings) {}
 
     void read() {
         Result<std::string> text = read_file(path_);
@@ -49,10 +50,14 @@ public:
         LineStream lines(*text, [this](std::string_view line, int) { check(line); });
         lines_ = &lines;
         tinyobj::callback_t callback;
-        callback.vertex_cb = [](void* self, float x, float y, float z, float) { of(self).positions_.push_back({x, y, z}); };
+        callback.vertex_cb = [](void* self, float x, float y, float z, float) {
+            of(self).positions_.push_back({x, y, z});
+        };
         callback.normal_cb = [](void* self, float x, float y, float z) { of(self).normals_.push_back({x, y, z}); };
         callback.texcoord_cb = [](void* self, float x, float y, float) { of(self).texcoords_.push_back({x, 1 - y}); };
-        callback.index_cb = [](void* self, tinyobj::index_t* indices, int count) { of(self).add_face({indices, std::size_t(count)}); };
+        callback.index_cb = [](void* self, tinyobj::index_t* indices, int count) {
+            of(self).add_face({indices, std::size_t(count)});
+        };
         callback.usemtl_cb = [](void* self, const char* name, int) { of(self).use_material(name); };
         callback.object_cb = [](void* self, const char* name) { of(self).begin_object(name); };
         std::istream stream(&lines);
@@ -103,7 +108,8 @@ private:
     }
     void check_numbers(const std::vector<std::string_view>& words) {
         const std::size_t least = words[0] == "vt" ? 1 : 3;
-        if (words.size() - 1 < least) complain(fmt::format("expected {} numbers after {}, found {}", least, words[0], words.size() - 1));
+        if (words.size() - 1 < least)
+            complain(fmt::format("expected {} numbers after {}, found {}", least, words[0], words.size() - 1));
         std::array<float, 7> numbers{};
         for (std::size_t i = 1; i < words.size(); ++i) {
             const std::optional<float> number = finite_number(words[i]);
@@ -126,7 +132,9 @@ private:
                 const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
                 const bool number = error == std::errc() && end == digits.data() + digits.size() && value != 0;
                 if (!number && !(part == 1 && digits.empty()))
-                    complain(fmt::format("expected a corner such as 1, 1/2, 1//3 or 1/2/3 with indices from 1 on, found \"{}\"", words[i]));
+                    complain(fmt::format(
+                        "expected a corner such as 1, 1/2, 1//3 or 1/2/3 with indices from 1 on, found \"{}\"",
+                        words[i]));
                 if (digits.size() == word.size()) break;
                 if (part == 2) complain(fmt::format("expected at most three indices a corner, found \"{}\"", words[i]));
                 word.remove_prefix(digits.size() + 1);
@@ -146,7 +154,8 @@ private:
     Group& group() {
         if (current_ < groups_.size()) return groups_[current_];
         for (current_ = 0; current_ < groups_.size(); ++current_)
-            if (groups_[current_].object == object_ && groups_[current_].material == material_) return groups_[current_];
+            if (groups_[current_].object == object_ && groups_[current_].material == material_)
+                return groups_[current_];
         groups_.push_back({.object = object_, .material = material_});
         return groups_.back();
     }
@@ -204,7 +213,8 @@ struct Draft {
     std::size_t material = std::size_t(-1);
 };
 
-std::vector<Draft> complete_groups(ObjFile& file, const ObjMaterials& materials, const std::filesystem::path& path, Warnings& warnings) {
+std::vector<Draft> complete_groups(ObjFile& file, const ObjMaterials& materials, const std::filesystem::path& path,
+                                   Warnings& warnings) {
     std::vector<Draft> drafts;
     std::size_t degenerate = 0;
     bool made_normals = false;
@@ -214,7 +224,9 @@ std::vector<Draft> complete_groups(ObjFile& file, const ObjMaterials& materials,
         for (std::size_t i = 0; i < materials.materials.size(); ++i)
             if (materials.materials[i].name == group.material) draft.material = i;
         if (!group.material.empty() && draft.material == std::size_t(-1))
-            warnings.push_back({path.string(), fmt::format("material \"{}\" is not in any .mtl file; the default one is taken", group.material)});
+            warnings.push_back(
+                {path.string(),
+                 fmt::format("material \"{}\" is not in any .mtl file; the default one is taken", group.material)});
         Mesh mesh = file.take_mesh(group);
         degenerate += drop_degenerate_triangles(mesh);
         drop_unused_vertices(mesh);
@@ -224,10 +236,12 @@ std::vector<Draft> complete_groups(ObjFile& file, const ObjMaterials& materials,
             made_normals = true;
         }
         repair_normals(mesh);
-        const bool bumpy = draft.material != std::size_t(-1) &&
-                           std::any_of(materials.slots[draft.material].begin(), materials.slots[draft.material].end(), [](const auto& slot) {
-                               return slot.first == &Material::normal_texture || slot.first == &Material::bump_texture;
-                           });
+        const bool bumpy =
+            draft.material != std::size_t(-1) &&
+            std::any_of(materials.slots[draft.material].begin(), materials.slots[draft.material].end(),
+                        [](const auto& slot) {
+                            return slot.first == &Material::normal_texture || slot.first == &Material::bump_texture;
+                        });
         if (bumpy) make_tangents(mesh, 0);
         draft.geometry.name = group.object.empty() ? path.stem().string() : group.object;
         if (!group.material.empty()) draft.geometry.name += " " + group.material;
@@ -236,7 +250,8 @@ std::vector<Draft> complete_groups(ObjFile& file, const ObjMaterials& materials,
         drafts.push_back(std::move(draft));
     }
     if (degenerate > 0) warnings.push_back({path.string(), fmt::format("drops {} triangles without area", degenerate)});
-    if (made_normals) warnings.push_back({path.string(), "makes smooth normals with creases at 60° where the file has none"});
+    if (made_normals)
+        warnings.push_back({path.string(), "makes smooth normals with creases at 60° where the file has none"});
     if (file.ignored_lines()) warnings.push_back({path.string(), "ignores points and lines"});
     return drafts;
 }
@@ -256,7 +271,8 @@ NodeId import_obj(Scene& scene, NodeId parent, const std::filesystem::path& path
     for (Texture& texture : materials.textures) textures.push_back(scene.add_texture(std::move(texture)));
     std::vector<MaterialId> material_ids;
     for (std::size_t i = 0; i < materials.materials.size(); ++i) {
-        for (const auto& [slot, texture] : materials.slots[i]) (materials.materials[i].*slot).texture = textures[std::size_t(texture)];
+        for (const auto& [slot, texture] : materials.slots[i])
+            (materials.materials[i].*slot).texture = textures[std::size_t(texture)];
         material_ids.push_back(scene.add_material(std::move(materials.materials[i])));
     }
     Node root;
@@ -265,7 +281,8 @@ NodeId import_obj(Scene& scene, NodeId parent, const std::filesystem::path& path
     // Groups of one object are found together; objects come in the order of the file.
     std::vector<std::pair<std::string, std::vector<Part>>> objects;
     for (Draft& draft : drafts) {
-        auto object = std::find_if(objects.begin(), objects.end(), [&](const auto& o) { return o.first == draft.object; });
+        auto object =
+            std::find_if(objects.begin(), objects.end(), [&](const auto& o) { return o.first == draft.object; });
         if (object == objects.end()) object = objects.insert(objects.end(), {draft.object, {}});
         const MaterialId material = draft.material < material_ids.size() ? material_ids[draft.material] : MaterialId{};
         object->second.push_back({scene.add_geometry(std::move(draft.geometry)), material});

@@ -18,8 +18,8 @@ namespace heliodon::import {
 class MtlReader : public tinyobj::MaterialReader {
 public:
     MtlReader(std::filesystem::path folder, Warnings& warnings) : folder_(std::move(folder)), warnings_(warnings) {}
-    bool operator()(const std::string& file, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* numbers,
-                    std::string* warning, std::string* error) override;
+    bool operator()(const std::string& file, std::vector<tinyobj::material_t>* materials,
+                    std::map<std::string, int>* numbers, std::string* warning, std::string* error) override;
 
     struct Entry {
         tinyobj::material_t values;
@@ -41,6 +41,7 @@ struct ObjMaterials {
     std::vector<TextureSlots> slots;
     std::vector<Texture> textures;
 };
-[[nodiscard]] ObjMaterials read_obj_materials(const MtlReader& reader, const std::filesystem::path& path, Warnings& warnings);
+[[nodiscard]] ObjMaterials read_obj_materials(const MtlReader& reader, const std::filesystem::path& path,
+                                              Warnings& warnings);
 
 }  // namespace heliodon::import

@@ -7,7 +7,9 @@
 namespace heliodon::import {
 namespace {
 
-double area(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+double area(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
 
 bool inside(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     return area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0 && p != a && p != b && p != c;
@@ -60,7 +62,8 @@ std::vector<std::uint32_t> triangulate(std::span<const glm::vec3> polygon) {
             }
         }
     }
-    for (std::size_t i = 1; i + 1 < left.size(); ++i) triangles.insert(triangles.end(), {left[0], left[i], left[i + 1]});
+    for (std::size_t i = 1; i + 1 < left.size(); ++i)
+        triangles.insert(triangles.end(), {left[0], left[i], left[i + 1]});
     return triangles;
 }
 

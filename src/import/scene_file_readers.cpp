@@ -15,7 +15,8 @@ namespace {
 class SharedTextures {
 public:
     void read(Scene& scene, Material& material, const MaterialTextures& files) {
-        import::MaterialFiles source{.files = files, .sampler = {}, .alpha_mode = material.alpha_mode, .alpha_cutoff = {}};
+        import::MaterialFiles source{
+            .files = files, .sampler = {}, .alpha_mode = material.alpha_mode, .alpha_cutoff = {}};
         if (material.alpha_mode == AlphaMode::mask && material.opacity > 0)
             source.alpha_cutoff = material.alpha_cutoff / material.opacity;
         import::TextureSet set;
@@ -56,9 +57,10 @@ Result<TextureId> read_sky_image(Scene& scene, const std::filesystem::path& path
 SceneFileReaders scene_file_readers() {
     auto shared = std::make_shared<SharedTextures>();
     return {.model = import_model,
-            .material_textures = [shared](Scene& scene, Material& material, const MaterialTextures& files, Warnings&) {
-                return import::guarded({}, [&] { shared->read(scene, material, files); });
-            },
+            .material_textures =
+                [shared](Scene& scene, Material& material, const MaterialTextures& files, Warnings&) {
+                    return import::guarded({}, [&] { shared->read(scene, material, files); });
+                },
             .sky_image = read_sky_image};
 }
 

@@ -99,13 +99,12 @@ std::vector<std::uint8_t> pack(const TextureRecipe& recipe, Ingredients& ingredi
     for (int c = 0; c < 4; ++c) {
         const DecodedImage* image = ingredients.find(recipe.channels[c].image);
         if (!image) continue;
-        for (std::size_t i = 0; i < count; ++i)
-            texels[i * 4 + c] = image->texels[i * 4 + recipe.channels[c].channel];
+        for (std::size_t i = 0; i < count; ++i) texels[i * 4 + c] = image->texels[i * 4 + recipe.channels[c].channel];
     }
     if (const DecodedImage* opacity = ingredients.find(recipe.opacity.image))
         for (std::size_t i = 0; i < count; ++i)
-            texels[i * 4 + 3] = std::uint8_t(
-                (texels[i * 4 + 3] * opacity->texels[i * 4 + recipe.opacity.channel] + 127) / 255);
+            texels[i * 4 + 3] =
+                std::uint8_t((texels[i * 4 + 3] * opacity->texels[i * 4 + recipe.opacity.channel] + 127) / 255);
     return texels;
 }
 
@@ -199,12 +198,14 @@ int TextureSet::add_from(const TextureSet& other, int index) {
 
 std::string TextureSet::identity(int index) const {
     const TextureRecipe& recipe = recipes_[std::size_t(index)];
-    std::string text = fmt::format("{} {} {} {} {} {} {}", int(recipe.format), int(recipe.sampler.wrap_u), int(recipe.sampler.wrap_v),
-                                   int(recipe.sampler.magnify), int(recipe.sampler.minify), recipe.sampler.mipmapped,
-                                   recipe.alpha_cutoff.value_or(-1.0f));
+    std::string text = fmt::format("{} {} {} {} {} {} {}", int(recipe.format), int(recipe.sampler.wrap_u),
+                                   int(recipe.sampler.wrap_v), int(recipe.sampler.magnify), int(recipe.sampler.minify),
+                                   recipe.sampler.mipmapped, recipe.alpha_cutoff.value_or(-1.0f));
     const auto append = [&](const ChannelSource& channel) {
-        if (channel.image < 0) text += "|";
-        else text += fmt::format("|{}:{}", channel.channel, images_[std::size_t(channel.image)].where);
+        if (channel.image < 0)
+            text += "|";
+        else
+            text += fmt::format("|{}:{}", channel.channel, images_[std::size_t(channel.image)].where);
     };
     for (const ChannelSource& channel : recipe.channels) append(channel);
     append(recipe.opacity);
@@ -259,6 +260,8 @@ Result<Texture> load_texture(const std::filesystem::path& path, TextureFormat fo
     });
 }
 
-void build_mip_chain(Texture& texture) { import::build_mip_chain(texture, std::nullopt); }
+void build_mip_chain(Texture& texture) {
+    import::build_mip_chain(texture, std::nullopt);
+}
 
 }  // namespace heliodon

@@ -37,7 +37,10 @@ private:
 /// Builds a glTF document with one binary buffer.
 class GlbBuilder {
 public:
-    GlbBuilder() { json = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", {{{"mesh", 0}}}}}; }
+    GlbBuilder() {
+        json = {
+            {"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", {{{"mesh", 0}}}}};
+    }
 
     Json json;
     std::string binary;
@@ -55,8 +58,10 @@ public:
     template <class T>
     std::size_t add_accessor(const std::vector<T>& values, const std::string& type, bool normalized = false) {
         const std::size_t width = type == "SCALAR" ? 1 : std::size_t(type[3] - '0');
-        Json accessor = {{"bufferView", add_view(bytes_of(values))}, {"componentType", component_type<T>()},
-                         {"count", values.size() / width}, {"type", type}};
+        Json accessor = {{"bufferView", add_view(bytes_of(values))},
+                         {"componentType", component_type<T>()},
+                         {"count", values.size() / width},
+                         {"type", type}};
         if (normalized) accessor["normalized"] = true;
         json["accessors"].push_back(accessor);
         return json["accessors"].size() - 1;

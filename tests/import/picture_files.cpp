@@ -8,8 +8,11 @@ namespace heliodon::tests {
 
 std::string png(int width, int height, int channels, const std::vector<std::uint8_t>& texels) {
     std::string bytes;
-    stbi_write_png_to_func([](void* to, void* data, int size) { static_cast<std::string*>(to)->append(static_cast<char*>(data), std::size_t(size)); },
-                           &bytes, width, height, channels, texels.data(), width * channels);
+    stbi_write_png_to_func(
+        [](void* to, void* data, int size) {
+            static_cast<std::string*>(to)->append(static_cast<char*>(data), std::size_t(size));
+        },
+        &bytes, width, height, channels, texels.data(), width * channels);
     return bytes;
 }
 

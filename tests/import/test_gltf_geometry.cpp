@@ -45,8 +45,10 @@ TEST(GltfGeometry, IndicesMayBeBytesShortsOrInts) {
 TEST(GltfGeometry, AttributesArriveAsTheyAreWritten) {
     GlbBuilder builder;
     Json& square = builder.add_square();
-    square["attributes"]["COLOR_0"] = builder.add_accessor<std::uint8_t>({255, 0, 51, 255, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8}, "VEC4", true);
-    square["attributes"]["TEXCOORD_1"] = builder.add_accessor<std::uint16_t>({0, 65535, 65535, 0, 0, 0, 13107, 0}, "VEC2", true);
+    square["attributes"]["COLOR_0"] =
+        builder.add_accessor<std::uint8_t>({255, 0, 51, 255, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8}, "VEC4", true);
+    square["attributes"]["TEXCOORD_1"] =
+        builder.add_accessor<std::uint16_t>({0, 65535, 65535, 0, 0, 0, 13107, 0}, "VEC2", true);
     const Mesh mesh = load_mesh(builder);
     EXPECT_EQ(plain(mesh.indices), (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
     EXPECT_EQ(mesh.positions[2], glm::vec3(1, 1, 0));
@@ -60,16 +62,18 @@ TEST(GltfGeometry, AttributesArriveAsTheyAreWritten) {
 
 TEST(GltfGeometry, ColoursWithoutAlphaAreOpaque) {
     GlbBuilder builder;
-    builder.add_square()["attributes"]["COLOR_0"] = builder.add_accessor<float>({.5f, .25f, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, "VEC3");
+    builder.add_square()["attributes"]["COLOR_0"] =
+        builder.add_accessor<float>({.5f, .25f, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, "VEC3");
     EXPECT_EQ(load_mesh(builder).colors[0], glm::vec4(.5f, .25f, 1, 1));
 }
 
 TEST(GltfGeometry, QuantizedAttributesKeepTheirValues) {
     GlbBuilder builder;
     builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"KHR_mesh_quantization"};
-    builder.add_primitive({{"attributes",
-                            {{"POSITION", builder.add_accessor<std::int16_t>({0, 0, 0, 1000, 0, 0, 1000, -500, 0}, "VEC3")},
-                             {"NORMAL", builder.add_accessor<std::int8_t>({0, 0, 127, 0, 0, 127, 0, -127, 0}, "VEC3", true)}}}});
+    builder.add_primitive(
+        {{"attributes",
+          {{"POSITION", builder.add_accessor<std::int16_t>({0, 0, 0, 1000, 0, 0, 1000, -500, 0}, "VEC3")},
+           {"NORMAL", builder.add_accessor<std::int8_t>({0, 0, 127, 0, 0, 127, 0, -127, 0}, "VEC3", true)}}}});
     const Mesh mesh = load_mesh(builder);
     EXPECT_EQ(mesh.positions[2], glm::vec3(1000, -500, 0));
     EXPECT_EQ(mesh.normals[2], glm::vec3(0, -1, 0));
@@ -77,19 +81,24 @@ TEST(GltfGeometry, QuantizedAttributesKeepTheirValues) {
 
 TEST(GltfGeometry, NormalizedPositionsAreScaledAndMostNegativeIntegersClamped) {
     GlbBuilder builder;
-    builder.add_primitive({{"attributes", {{"POSITION", builder.add_accessor<std::int8_t>({-128, 0, 0, 127, 0, 0, 0, 127, 0}, "VEC3", true)}}}});
+    builder.add_primitive(
+        {{"attributes",
+          {{"POSITION", builder.add_accessor<std::int8_t>({-128, 0, 0, 127, 0, 0, 0, 127, 0}, "VEC3", true)}}}});
     const Mesh mesh = load_mesh(builder);
     EXPECT_EQ(mesh.positions[0], glm::vec3(-1, 0, 0));
     EXPECT_EQ(mesh.positions[1], glm::vec3(1, 0, 0));
 }
 
 TEST(GltfGeometry, StripsAndFansBecomeTriangles) {
-    for (const auto& [mode, expected] : {std::pair{5, std::vector<std::uint32_t>{0, 1, 2, 1, 3, 2}}, {6, {1, 2, 0, 2, 3, 0}}}) {
+    for (const auto& [mode, expected] :
+         {std::pair{5, std::vector<std::uint32_t>{0, 1, 2, 1, 3, 2}}, {6, {1, 2, 0, 2, 3, 0}}}) {
         GlbBuilder builder;
         const std::vector<float> strip = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, fan = square_positions;
-        builder.add_primitive({{"attributes", {{"POSITION", builder.add_accessor(mode == 5 ? strip : fan, "VEC3")},
-                                               {"NORMAL", builder.add_accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")}}},
-                               {"mode", mode}});
+        builder.add_primitive(
+            {{"attributes",
+              {{"POSITION", builder.add_accessor(mode == 5 ? strip : fan, "VEC3")},
+               {"NORMAL", builder.add_accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")}}},
+             {"mode", mode}});
         const Mesh mesh = load_mesh(builder);
         EXPECT_EQ(plain(mesh.indices), expected);
     }
@@ -99,7 +108,8 @@ TEST(GltfGeometry, PointsAndLinesAreIgnoredWithOneMessage) {
     GlbBuilder builder;
     builder.add_square();
     for (const int mode : {0, 1, 2, 3})
-        builder.add_primitive({{"attributes", {{"POSITION", builder.add_accessor(square_positions, "VEC3")}}}, {"mode", mode}});
+        builder.add_primitive(
+            {{"attributes", {{"POSITION", builder.add_accessor(square_positions, "VEC3")}}}, {"mode", mode}});
     EXPECT_EQ(load_mesh(builder).triangle_count(), 2u);
     EXPECT_TRUE(builder.warned("4 primitives of points or lines"));
     EXPECT_EQ(builder.warnings.size(), 1u);
@@ -110,8 +120,12 @@ TEST(GltfGeometry, SparseAccessorsReplaceElements) {
     const std::size_t position = builder.add_accessor(square_positions, "VEC3");
     const std::size_t indices = builder.add_view(GlbBuilder::bytes_of<std::uint16_t>({1, 3}));
     const std::size_t values = builder.add_view(GlbBuilder::bytes_of<float>({5, 0, 0, 0, 7, 0}));
-    builder.json["accessors"][position]["sparse"] = {{"count", 2}, {"indices", {{"bufferView", indices}, {"componentType", 5123}}}, {"values", {{"bufferView", values}}}};
-    builder.add_primitive({{"attributes", {{"POSITION", position}, {"NORMAL", builder.add_accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")}}},
+    builder.json["accessors"][position]["sparse"] = {{"count", 2},
+                                                     {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
+                                                     {"values", {{"bufferView", values}}}};
+    builder.add_primitive({{"attributes",
+                            {{"POSITION", position},
+                             {"NORMAL", builder.add_accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")}}},
                            {"indices", builder.add_accessor<std::uint8_t>({0, 1, 2, 0, 2, 3}, "SCALAR")}});
     const Mesh mesh = load_mesh(builder);
     EXPECT_EQ(mesh.positions[1], glm::vec3(5, 0, 0));
@@ -123,8 +137,13 @@ TEST(GltfGeometry, SparseAccessorsWithoutBufferViewStartFromZero) {
     GlbBuilder builder;
     const std::size_t indices = builder.add_view(GlbBuilder::bytes_of<std::uint8_t>({1, 2}));
     const std::size_t values = builder.add_view(GlbBuilder::bytes_of<float>({1, 0, 0, 0, 1, 0}));
-    builder.json["accessors"].push_back({{"componentType", 5126}, {"count", 3}, {"type", "VEC3"},
-                                         {"sparse", {{"count", 2}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}}}});
+    builder.json["accessors"].push_back({{"componentType", 5126},
+                                         {"count", 3},
+                                         {"type", "VEC3"},
+                                         {"sparse",
+                                          {{"count", 2},
+                                           {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+                                           {"values", {{"bufferView", values}}}}}});
     builder.add_primitive({{"attributes", {{"POSITION", 0}}}});
     const Mesh mesh = load_mesh(builder);
     ASSERT_EQ(mesh.positions.size(), 3u);
@@ -137,8 +156,9 @@ TEST(GltfGeometry, InterleavedBufferViewsAreReadByTheirStride) {
     const std::vector<float> interleaved = {0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1};
     const std::size_t view = builder.add_view(GlbBuilder::bytes_of(interleaved));
     builder.json["bufferViews"][view]["byteStride"] = 24;
-    builder.json["accessors"] = {{{"bufferView", view}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
-                                 {{"bufferView", view}, {"byteOffset", 12}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}};
+    builder.json["accessors"] = {
+        {{"bufferView", view}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
+        {{"bufferView", view}, {"byteOffset", 12}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}};
     builder.add_primitive({{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}});
     const Mesh mesh = load_mesh(builder);
     EXPECT_EQ(mesh.positions[1], glm::vec3(1, 0, 0));
@@ -147,8 +167,9 @@ TEST(GltfGeometry, InterleavedBufferViewsAreReadByTheirStride) {
 
 TEST(GltfGeometry, MissingNormalsAreFlat) {
     GlbBuilder builder;  // two triangles at a right angle along the edge 0-1
-    builder.add_primitive({{"attributes", {{"POSITION", builder.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3")}}},
-                           {"indices", builder.add_accessor<std::uint8_t>({0, 1, 2, 1, 0, 3}, "SCALAR")}});
+    builder.add_primitive(
+        {{"attributes", {{"POSITION", builder.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3")}}},
+         {"indices", builder.add_accessor<std::uint8_t>({0, 1, 2, 1, 0, 3}, "SCALAR")}});
     const Mesh mesh = load_mesh(builder);
     ASSERT_EQ(mesh.positions.size(), 6u);
     for (std::size_t corner = 0; corner < 6; ++corner)
@@ -158,8 +179,9 @@ TEST(GltfGeometry, MissingNormalsAreFlat) {
 
 TEST(GltfGeometry, TrianglesWithoutAreaAreDroppedWithOneMessage) {
     GlbBuilder builder;
-    builder.add_primitive({{"attributes", {{"POSITION", builder.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0}, "VEC3")}}},
-                           {"indices", builder.add_accessor<std::uint8_t>({0, 1, 2, 0, 0, 1, 0, 1, 3}, "SCALAR")}});
+    builder.add_primitive(
+        {{"attributes", {{"POSITION", builder.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0}, "VEC3")}}},
+         {"indices", builder.add_accessor<std::uint8_t>({0, 1, 2, 0, 0, 1, 0, 1, 3}, "SCALAR")}});
     const Mesh mesh = load_mesh(builder);
     EXPECT_EQ(mesh.triangle_count(), 1u);
     EXPECT_EQ(mesh.positions.size(), 3u) << "the vertex that only a dropped triangle used goes too";
@@ -181,11 +203,13 @@ TEST(GltfGeometry, PrimitivesKeepOnlyTheVerticesTheyUse) {
     GlbBuilder builder;
     const std::size_t position = builder.add_accessor(square_positions, "VEC3");
     for (const auto& indices : {std::vector<std::uint8_t>{0, 1, 2}, {0, 2, 3}})
-        builder.add_primitive({{"attributes", {{"POSITION", position}}}, {"indices", builder.add_accessor(indices, "SCALAR")}});
+        builder.add_primitive(
+            {{"attributes", {{"POSITION", position}}}, {"indices", builder.add_accessor(indices, "SCALAR")}});
     Scene scene;
     ASSERT_TRUE(builder.load(scene));
     ASSERT_EQ(scene.geometries().size(), 2u);
-    scene.geometries().each([](GeometryId, const Geometry& geometry) { EXPECT_EQ(geometry.mesh.positions.size(), 3u); });
+    scene.geometries().each(
+        [](GeometryId, const Geometry& geometry) { EXPECT_EQ(geometry.mesh.positions.size(), 3u); });
 }
 
 /// The unit square, draco-compressed.
@@ -194,11 +218,14 @@ GlbBuilder draco_square() {
     soup.Start(2);
     const int position = soup.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
     const int texcoord = soup.AddAttribute(draco::GeometryAttribute::TEX_COORD, 2, draco::DT_FLOAT32);
-    const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, uv[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                uv[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
     const int faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
     for (int f = 0; f < 2; ++f) {
-        soup.SetAttributeValuesForFace(position, draco::FaceIndex(unsigned(f)), corners[faces[f][0]], corners[faces[f][1]], corners[faces[f][2]]);
-        soup.SetAttributeValuesForFace(texcoord, draco::FaceIndex(unsigned(f)), uv[faces[f][0]], uv[faces[f][1]], uv[faces[f][2]]);
+        soup.SetAttributeValuesForFace(position, draco::FaceIndex(unsigned(f)), corners[faces[f][0]],
+                                       corners[faces[f][1]], corners[faces[f][2]]);
+        soup.SetAttributeValuesForFace(texcoord, draco::FaceIndex(unsigned(f)), uv[faces[f][0]], uv[faces[f][1]],
+                                       uv[faces[f][2]]);
     }
     const auto source = soup.Finalize();
     draco::ExpertEncoder encoder(*source);
@@ -213,10 +240,14 @@ GlbBuilder draco_square() {
     builder.json["accessors"] = {{{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}},
                                  {{"componentType", 5126}, {"count", 4}, {"type", "VEC2"}},
                                  {{"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}};
-    builder.add_primitive({{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}, {"indices", 2},
-                           {"extensions", {{"KHR_draco_mesh_compression",
-                                            {{"bufferView", view}, {"attributes", {{"POSITION", source->attribute(position)->unique_id()},
-                                                                                   {"TEXCOORD_0", source->attribute(texcoord)->unique_id()}}}}}}}});
+    builder.add_primitive({{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}},
+                           {"indices", 2},
+                           {"extensions",
+                            {{"KHR_draco_mesh_compression",
+                              {{"bufferView", view},
+                               {"attributes",
+                                {{"POSITION", source->attribute(position)->unique_id()},
+                                 {"TEXCOORD_0", source->attribute(texcoord)->unique_id()}}}}}}}});
     return builder;
 }
 
@@ -233,13 +264,21 @@ TEST(GltfGeometry, DracoMeshesAreDecoded) {
 }
 
 /// A view that holds `encoded` and decodes to `count` elements of `stride` bytes in a buffer without data.
-std::size_t add_meshopt_view(GlbBuilder& builder, const std::vector<unsigned char>& encoded, std::size_t count, std::size_t stride,
-                             const std::string& mode, const std::string& filter = "NONE") {
+std::size_t add_meshopt_view(GlbBuilder& builder, const std::vector<unsigned char>& encoded, std::size_t count,
+                             std::size_t stride, const std::string& mode, const std::string& filter = "NONE") {
     const std::size_t compressed = builder.add_view(GlbBuilder::bytes_of(encoded));
     Json& view = builder.json["bufferViews"][compressed];
-    Json inside = {{"buffer", 0}, {"byteOffset", view["byteOffset"]}, {"byteLength", view["byteLength"]},
-                   {"byteStride", stride}, {"count", count}, {"mode", mode}, {"filter", filter}};
-    view = {{"buffer", 1}, {"byteOffset", 0}, {"byteLength", count * stride}, {"extensions", {{"EXT_meshopt_compression", inside}}}};
+    Json inside = {{"buffer", 0},
+                   {"byteOffset", view["byteOffset"]},
+                   {"byteLength", view["byteLength"]},
+                   {"byteStride", stride},
+                   {"count", count},
+                   {"mode", mode},
+                   {"filter", filter}};
+    view = {{"buffer", 1},
+            {"byteOffset", 0},
+            {"byteLength", count * stride},
+            {"extensions", {{"EXT_meshopt_compression", inside}}}};
     if (mode == "ATTRIBUTES") view["byteStride"] = stride;
     return compressed;
 }
@@ -255,7 +294,8 @@ const std::vector<float> filtered_normals = {0, 0, 1, 1, 0, 0.6f, 0.8f, 1, 1, 0,
 /// The unit square with those normals, compressed and filtered by meshoptimizer.
 GlbBuilder meshopt_square() {
     GlbBuilder builder;
-    builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"EXT_meshopt_compression", "KHR_mesh_quantization"};
+    builder.json["extensionsUsed"] =
+        builder.json["extensionsRequired"] = {"EXT_meshopt_compression", "KHR_mesh_quantization"};
     std::vector<std::int8_t> oct(16);
     meshopt_encodeFilterOct(oct.data(), 4, 4, 8, filtered_normals.data());
     std::vector<std::uint32_t> exponents(12);
@@ -265,15 +305,19 @@ GlbBuilder meshopt_square() {
     triangles.resize(meshopt_encodeIndexBuffer(triangles.data(), triangles.size(), indices.data(), 6));
 
     builder.add_view(GlbBuilder::bytes_of<float>({0}));
-    const std::size_t position = add_meshopt_view(builder, encode_vertices(exponents.data(), 4, 12), 4, 12, "ATTRIBUTES", "EXPONENTIAL");
-    const std::size_t normal = add_meshopt_view(builder, encode_vertices(oct.data(), 4, 4), 4, 4, "ATTRIBUTES", "OCTAHEDRAL");
+    const std::size_t position =
+        add_meshopt_view(builder, encode_vertices(exponents.data(), 4, 12), 4, 12, "ATTRIBUTES", "EXPONENTIAL");
+    const std::size_t normal =
+        add_meshopt_view(builder, encode_vertices(oct.data(), 4, 4), 4, 4, "ATTRIBUTES", "OCTAHEDRAL");
     const std::size_t index = add_meshopt_view(builder, triangles, 6, 4, "TRIANGLES");
-    builder.json["accessors"] = {{{"bufferView", position}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}},
-                                 {{"bufferView", normal}, {"componentType", 5120}, {"normalized", true}, {"count", 4}, {"type", "VEC3"}},
-                                 {{"bufferView", index}, {"componentType", 5125}, {"count", 6}, {"type", "SCALAR"}}};
+    builder.json["accessors"] = {
+        {{"bufferView", position}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}},
+        {{"bufferView", normal}, {"componentType", 5120}, {"normalized", true}, {"count", 4}, {"type", "VEC3"}},
+        {{"bufferView", index}, {"componentType", 5125}, {"count", 6}, {"type", "SCALAR"}}};
     builder.add_primitive({{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 2}});
-    builder.json["buffers"] = {{{"byteLength", builder.binary.size()}},
-                               {{"byteLength", 88}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+    builder.json["buffers"] = {
+        {{"byteLength", builder.binary.size()}},
+        {{"byteLength", 88}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
     return builder;
 }
 
@@ -313,14 +357,21 @@ TEST(GltfGeometry, MeshoptIndexSequencesAndQuaternionsAreDecoded) {
     const std::size_t position = builder.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3");
     const std::size_t times = builder.add_accessor<float>({0, 1}, "SCALAR");
     const std::size_t index_view = add_meshopt_view(builder, sequence, 4, 4, "INDICES");
-    const std::size_t quaternion_view = add_meshopt_view(builder, encode_vertices(encoded.data(), 2, 8), 2, 8, "ATTRIBUTES", "QUATERNION");
-    builder.json["accessors"].push_back({{"bufferView", index_view}, {"componentType", 5125}, {"count", 4}, {"type", "SCALAR"}});
-    builder.json["accessors"].push_back({{"bufferView", quaternion_view}, {"componentType", 5122}, {"normalized", true}, {"count", 2}, {"type", "VEC4"}});
+    const std::size_t quaternion_view =
+        add_meshopt_view(builder, encode_vertices(encoded.data(), 2, 8), 2, 8, "ATTRIBUTES", "QUATERNION");
+    builder.json["accessors"].push_back(
+        {{"bufferView", index_view}, {"componentType", 5125}, {"count", 4}, {"type", "SCALAR"}});
+    builder.json["accessors"].push_back({{"bufferView", quaternion_view},
+                                         {"componentType", 5122},
+                                         {"normalized", true},
+                                         {"count", 2},
+                                         {"type", "VEC4"}});
     builder.add_primitive({{"attributes", {{"POSITION", position}}}, {"indices", 2}, {"mode", 5}});
     builder.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}},
                                    {"samplers", {{{"input", times}, {"output", 3}}}}}};
-    builder.json["buffers"] = {{{"byteLength", builder.binary.size()}},
-                               {{"byteLength", 32}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+    builder.json["buffers"] = {
+        {{"byteLength", builder.binary.size()}},
+        {{"byteLength", 32}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
     Scene scene;
     std::string error;
     ASSERT_TRUE(builder.load(scene, &error)) << error;

@@ -41,12 +41,18 @@ struct MaterialFile {
     }
 };
 
-std::string one_texel(std::uint8_t r, std::uint8_t g, std::uint8_t b, std::uint8_t a = 255) { return tests::png(1, 1, 4, {r, g, b, a}); }
+std::string one_texel(std::uint8_t r, std::uint8_t g, std::uint8_t b, std::uint8_t a = 255) {
+    return tests::png(1, 1, 4, {r, g, b, a});
+}
 
 TEST(GltfMaterials, FactorsArrive) {
     MaterialFile file;
-    const Material& material = file.load({{"name", "paint"}, {"doubleSided", true}, {"emissiveFactor", {1, 0.5, 0}},
-                                          {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.75}}}});
+    const Material& material =
+        file.load({{"name", "paint"},
+                   {"doubleSided", true},
+                   {"emissiveFactor", {1, 0.5, 0}},
+                   {"pbrMetallicRoughness",
+                    {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.75}}}});
     EXPECT_EQ(material.name, "paint");
     EXPECT_TRUE(material.two_sided);
     EXPECT_EQ(material.base_color, glm::vec3(0.1f, 0.2f, 0.3f));
@@ -67,14 +73,29 @@ TEST(GltfMaterials, DefaultsAreThoseOfTheSpecification) {
     EXPECT_FALSE(material.two_sided);
 }
 
+TEST(GltfMaterials, FactorsOutsideTheirRangeAreBroughtIntoIt) {
+    MaterialFile file;
+    const Material& material =
+        file.load({{"emissiveFactor", {-1, 2, 0}},
+                   {"pbrMetallicRoughness",
+                    {{"baseColorFactor", {-1, 5, 0.5, 1}}, {"metallicFactor", 7}, {"roughnessFactor", -3}}}});
+    EXPECT_EQ(material.base_color, glm::vec3(0, 1, 0.5f));
+    EXPECT_EQ(material.metallic, 1.0f);
+    EXPECT_EQ(material.roughness, 0.0f);
+    EXPECT_EQ(material.emission_nits, glm::vec3(0, 2, 0));
+    EXPECT_TRUE(file.builder.warned("outside their range"));
+}
+
 TEST(GltfMaterials, ExtensionsArrive) {
     MaterialFile file;
-    const Material& material = file.load(
-        {{"emissiveFactor", {1, 1, 1}},
-         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 250}}}, {"KHR_materials_ior", {{"ior", 1.33}}},
-                         {"KHR_materials_transmission", {{"transmissionFactor", 0.9}}},
-                         {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0.5, 0.25}}}},
-                         {"KHR_materials_clearcoat", {{"clearcoatFactor", 0.8}, {"clearcoatRoughnessFactor", 0.1}}}}}});
+    const Material& material =
+        file.load({{"emissiveFactor", {1, 1, 1}},
+                   {"extensions",
+                    {{"KHR_materials_emissive_strength", {{"emissiveStrength", 250}}},
+                     {"KHR_materials_ior", {{"ior", 1.33}}},
+                     {"KHR_materials_transmission", {{"transmissionFactor", 0.9}}},
+                     {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0.5, 0.25}}}},
+                     {"KHR_materials_clearcoat", {{"clearcoatFactor", 0.8}, {"clearcoatRoughnessFactor", 0.1}}}}}});
     EXPECT_EQ(material.emission_nits, glm::vec3(250));
     EXPECT_FLOAT_EQ(material.ior, 1.33f);
     EXPECT_FLOAT_EQ(material.transmission, 0.9f);
@@ -95,8 +116,9 @@ TEST(GltfMaterials, UnlitMaterialsShowAsADisplayWould) {
 TEST(GltfMaterials, OneImageForOcclusionRoughnessAndMetalIsOneTexture) {
     MaterialFile file;
     const int texture = file.add_texture(one_texel(10, 20, 30));
-    const Material& material = file.load({{"occlusionTexture", {{"index", texture}, {"strength", 0.5}}},
-                                          {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", texture}}}}}});
+    const Material& material =
+        file.load({{"occlusionTexture", {{"index", texture}, {"strength", 0.5}}},
+                   {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", texture}}}}}});
     EXPECT_EQ(file.scene.textures().size(), 1u);
     EXPECT_EQ(material.orm_texture.texture, material.occlusion_texture.texture);
     EXPECT_EQ(material.occlusion_strength, 0.5f);
@@ -108,7 +130,9 @@ TEST(GltfMaterials, SeparateOcclusionIsPackedWithRoughnessAndMetalAtTheLargerSiz
     MaterialFile file;
     const int occlusion = file.add_texture(tests::png(2, 2, 3, {0, 9, 9, 100, 9, 9, 0, 9, 9, 100, 9, 9}));
     const int rough = file.add_texture(one_texel(1, 200, 50));
-    const Material& material = file.load({{"occlusionTexture", {{"index", occlusion}}}, {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", rough}}}}}});
+    const Material& material =
+        file.load({{"occlusionTexture", {{"index", occlusion}}},
+                   {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", rough}}}}}});
     EXPECT_EQ(file.scene.textures().size(), 1u);
     EXPECT_EQ(file.texture(material.orm_texture).width, 2);
     EXPECT_EQ(file.texel(material.orm_texture, 0), (std::vector<int>{0, 200, 50, 255}));
@@ -119,16 +143,20 @@ TEST(GltfMaterials, OcclusionWithAnotherSamplerStaysApart) {
     MaterialFile file;
     const int occlusion = file.add_texture(one_texel(70, 0, 0), {{"wrapS", 33071}});
     const int rough = file.add_texture(one_texel(1, 200, 50));
-    const Material& material = file.load({{"occlusionTexture", {{"index", occlusion}}}, {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", rough}}}}}});
+    const Material& material =
+        file.load({{"occlusionTexture", {{"index", occlusion}}},
+                   {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", rough}}}}}});
     EXPECT_EQ(file.scene.textures().size(), 2u);
-    EXPECT_EQ(file.texel(material.orm_texture), (std::vector<int>{255, 200, 50, 255})) << "no occlusion where none is packed";
+    EXPECT_EQ(file.texel(material.orm_texture), (std::vector<int>{255, 200, 50, 255}))
+        << "no occlusion where none is packed";
     EXPECT_EQ(file.texel(material.occlusion_texture)[0], 70);
 }
 
 TEST(GltfMaterials, ColourAndDataOfOneImageAreKeptApart) {
     MaterialFile file;
     const int texture = file.add_texture(one_texel(128, 128, 255));
-    const Material& material = file.load({{"normalTexture", {{"index", texture}, {"scale", 0.5}}}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}});
+    const Material& material = file.load({{"normalTexture", {{"index", texture}, {"scale", 0.5}}},
+                                          {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}});
     EXPECT_EQ(file.scene.textures().size(), 2u);
     EXPECT_EQ(file.texture(material.base_color_texture).format, TextureFormat::srgb8);
     EXPECT_EQ(file.texture(material.normal_texture).format, TextureFormat::linear8);
@@ -138,7 +166,9 @@ TEST(GltfMaterials, ColourAndDataOfOneImageAreKeptApart) {
 
 TEST(GltfMaterials, SamplersArrive) {
     MaterialFile file;
-    const int texture = file.add_texture(tests::png(4, 4, 3, std::vector<std::uint8_t>(48, 7)), {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9729}});
+    const int texture =
+        file.add_texture(tests::png(4, 4, 3, std::vector<std::uint8_t>(48, 7)),
+                         {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9729}});
     const Material& material = file.load({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}});
     const Texture& made = file.texture(material.base_color_texture);
     EXPECT_EQ(made.wrap_u, Wrap::clamp_to_edge);
@@ -152,8 +182,11 @@ TEST(GltfMaterials, SamplersArrive) {
 TEST(GltfMaterials, TextureTransformsRotateCounterClockwiseAsTheirExampleShows) {
     MaterialFile file;
     const int texture = file.add_texture(one_texel(1, 2, 3));
-    const Json transform = {{"offset", {0, 1}}, {"rotation", std::numbers::pi / 2}, {"scale", {0.5, 0.5}}, {"texCoord", 1}};
-    const Material& material = file.load({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}, {"extensions", {{"KHR_texture_transform", transform}}}}}}}});
+    const Json transform = {
+        {"offset", {0, 1}}, {"rotation", std::numbers::pi / 2}, {"scale", {0.5, 0.5}}, {"texCoord", 1}};
+    const Material& material = file.load(
+        {{"pbrMetallicRoughness",
+          {{"baseColorTexture", {{"index", texture}, {"extensions", {{"KHR_texture_transform", transform}}}}}}}});
     const TextureUse& use = material.base_color_texture;
     EXPECT_EQ(use.texcoord, 1);
     // "Only the lower left quadrant of the source image, rotated clockwise 90°": u 0…0.5, v 0.5…1.
@@ -168,8 +201,11 @@ TEST(GltfMaterials, MaskKeepsAlphaAndCutoffAndOpaqueDropsIt) {
     for (const char* mode : {"MASK", "BLEND", "OPAQUE"}) {
         MaterialFile file;
         const int texture = file.add_texture(one_texel(9, 9, 9, 100));
-        const Material& material = file.load({{"alphaMode", mode}, {"alphaCutoff", 0.3},
-                                              {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}, {"baseColorTexture", {{"index", texture}}}}}});
+        const Material& material =
+            file.load({{"alphaMode", mode},
+                       {"alphaCutoff", 0.3},
+                       {"pbrMetallicRoughness",
+                        {{"baseColorFactor", {1, 1, 1, 0.5}}, {"baseColorTexture", {{"index", texture}}}}}});
         const bool opaque = std::string(mode) == "OPAQUE";
         EXPECT_EQ(file.texture(material.base_color_texture).opaque, opaque);
         EXPECT_EQ(file.texel(material.base_color_texture)[3], opaque ? 255 : 100);

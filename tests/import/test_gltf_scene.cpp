@@ -25,7 +25,11 @@ struct SceneFile {
 TEST(GltfScene, TransformsComposeDownTheTree) {
     SceneFile file;
     const double half = std::numbers::sqrt2 / 2;
-    file.builder.json["nodes"] = {{{"name", "parent"}, {"translation", {1, 2, 3}}, {"rotation", {0, 0, half, half}}, {"scale", {2, 2, 2}}, {"children", {1}}},
+    file.builder.json["nodes"] = {{{"name", "parent"},
+                                   {"translation", {1, 2, 3}},
+                                   {"rotation", {0, 0, half, half}},
+                                   {"scale", {2, 2, 2}},
+                                   {"children", {1}}},
                                   {{"name", "child"}, {"mesh", 0}, {"translation", {1, 0, 0}}}};
     file.load();
     const glm::vec3 origin(file.scene.world_matrix(file.scene.find_node("child"))[3]);
@@ -70,9 +74,11 @@ TEST(GltfScene, WithoutScenesEveryRootIsRead) {
 
 TEST(GltfScene, CamerasStandAtTheirNodes) {
     SceneFile file;
-    file.builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}},
-                                    {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}}};
-    file.builder.json["nodes"] = {{{"mesh", 0}}, {{"name", "eye"}, {"camera", 0}, {"translation", {0.5, 0.5, 4}}}, {{"camera", 1}}};
+    file.builder.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}}};
+    file.builder.json["nodes"] = {
+        {{"mesh", 0}}, {{"name", "eye"}, {"camera", 0}, {"translation", {0.5, 0.5, 4}}}, {{"camera", 1}}};
     file.builder.json["scenes"][0]["nodes"] = {0, 1, 2};
     file.load();
     ASSERT_EQ(file.scene.cameras().size(), 1u);
@@ -111,16 +117,20 @@ TEST(GltfScene, AnimationsDriveNodes) {
     const std::size_t times = builder.add_accessor<float>({0, 2}, "SCALAR");
     const std::size_t moves = builder.add_accessor<float>({0, 0, 0, 4, 0, 0}, "VEC3");
     const std::size_t turns = builder.add_accessor<std::int16_t>({0, 0, 0, 32767, 0, 32767, 0, 0}, "VEC4", true);
-    const std::size_t grows = builder.add_accessor<float>({0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 2, 2, 2, 0, 0, 0}, "VEC3");
+    const std::size_t grows =
+        builder.add_accessor<float>({0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 2, 2, 2, 0, 0, 0}, "VEC3");
     builder.json["nodes"][0]["name"] = "square";
     builder.json["animations"] = {{{"name", "dance"},
-                                   {"samplers", {{{"input", times}, {"output", moves}}, {{"input", times}, {"output", turns}, {"interpolation", "STEP"}},
-                                                 {{"input", times}, {"output", grows}, {"interpolation", "CUBICSPLINE"}}}},
-                                   {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
-                                                 {{"sampler", 1}, {"target", {{"node", 0}, {"path", "rotation"}}}},
-                                                 {{"sampler", 2}, {"target", {{"node", 0}, {"path", "scale"}}}},
-                                                 {{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}},
-                                                 {{"sampler", 0}, {"target", {{"path", "pointer"}}}}}}}};
+                                   {"samplers",
+                                    {{{"input", times}, {"output", moves}},
+                                     {{"input", times}, {"output", turns}, {"interpolation", "STEP"}},
+                                     {{"input", times}, {"output", grows}, {"interpolation", "CUBICSPLINE"}}}},
+                                   {"channels",
+                                    {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
+                                     {{"sampler", 1}, {"target", {{"node", 0}, {"path", "rotation"}}}},
+                                     {{"sampler", 2}, {"target", {{"node", 0}, {"path", "scale"}}}},
+                                     {{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}},
+                                     {{"sampler", 0}, {"target", {{"path", "pointer"}}}}}}}};
     file.load();
     const Animation& animation = first(file.scene.animations());
     EXPECT_EQ(animation.name, "dance");

@@ -28,7 +28,8 @@ TEST(LoadScene, AModelStandsFramedUnderAnOvercastSky) {
         const double top = std::numbers::pi * y / sky.height, bottom = std::numbers::pi * (y + 1) / sky.height;
         float nits = 0;
         std::memcpy(&nits, &sky.levels[0][std::size_t(y) * sky.width * 16], sizeof nits);
-        if (2 * y < sky.height) horizontal += nits * std::numbers::pi * (std::pow(std::sin(bottom), 2) - std::pow(std::sin(top), 2));
+        if (2 * y < sky.height)
+            horizontal += nits * std::numbers::pi * (std::pow(std::sin(bottom), 2) - std::pow(std::sin(top), 2));
         mean += nits * 0.5 * (std::cos(top) - std::cos(bottom));
     }
     EXPECT_NEAR(horizontal, 10000, 5);
@@ -90,9 +91,12 @@ TEST(LoadScene, SceneFilesPackTexturesAndShareThem) {
     const Material& b = *scene->materials().find(scene->find_material("b"));
     EXPECT_EQ(a.orm_texture.texture, b.orm_texture.texture);
     EXPECT_EQ(scene->textures().size(), 2u);
-    EXPECT_EQ(scene->textures().find(a.orm_texture.texture)->levels[0], (std::vector<std::uint8_t>{255, 100, 200, 255}));
+    EXPECT_EQ(scene->textures().find(a.orm_texture.texture)->levels[0],
+              (std::vector<std::uint8_t>{255, 100, 200, 255}));
     EXPECT_EQ(first(scene->cameras()).ev100(), 5.0f) << "a scene file's exposure stays";
-    scene->geometries().each([](GeometryId, const Geometry& geometry) { EXPECT_EQ(geometry.mesh.tangents.size(), 4u) << "the normal map asks for them"; });
+    scene->geometries().each([](GeometryId, const Geometry& geometry) {
+        EXPECT_EQ(geometry.mesh.tangents.size(), 4u) << "the normal map asks for them";
+    });
 }
 
 TEST(LoadScene, ImageSkiesAreReadAsFloats) {
@@ -100,7 +104,8 @@ TEST(LoadScene, ImageSkiesAreReadAsFloats) {
     Picture picture;
     picture.image = Image(8, 4, 3, 100.0f);
     ASSERT_TRUE(write_picture(folder / "sky.hdr", picture));
-    const auto path = folder.write("a.heliodon.json", R"({"heliodon": 1, "nodes": [], "sky": {"model": "image", "image": "sky.hdr"}})");
+    const auto path = folder.write("a.heliodon.json",
+                                   R"({"heliodon": 1, "nodes": [], "sky": {"model": "image", "image": "sky.hdr"}})");
     Warnings warnings;
     const auto scene = load_scene(path, {}, warnings);
     ASSERT_TRUE(scene) << scene.error().text();

@@ -14,7 +14,8 @@ namespace {
 Mesh cube() {
     Mesh mesh;
     for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
-    const std::uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    const std::uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     for (const auto& q : quads) mesh.indices.insert(mesh.indices.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
     return mesh;
 }
@@ -111,7 +112,8 @@ TEST(MeshCompletion, NormalsWithoutLengthAreReplaced) {
     for (const glm::vec3& p : mesh.positions) mesh.normals.push_back(3.0f * p);
     mesh.normals[5] = glm::vec3(0);
     EXPECT_EQ(import::repair_normals(mesh), 1u);
-    for (std::size_t v = 0; v < 8; ++v) EXPECT_NEAR(glm::dot(mesh.normals[v], glm::normalize(mesh.positions[v])), 1, 1e-6);
+    for (std::size_t v = 0; v < 8; ++v)
+        EXPECT_NEAR(glm::dot(mesh.normals[v], glm::normalize(mesh.positions[v])), 1, 1e-6);
 }
 
 TEST(MeshCompletion, ThinTrianglesStayAndFlatOnesGo) {

@@ -18,7 +18,9 @@ struct ObjFile {
     Scene scene;
     Warnings warnings;
 
-    Result<NodeId> load(const std::string& text) { return import_model(scene, {}, folder.write("model.obj", text), warnings); }
+    Result<NodeId> load(const std::string& text) {
+        return import_model(scene, {}, folder.write("model.obj", text), warnings);
+    }
     std::string error(const std::string& text) {
         const auto root = load(text);
         return root ? "" : root.error().text();
@@ -35,8 +37,9 @@ const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST(Obj, VerticesAreSharedByPositionTextureAndNormal) {
     ObjFile file;
-    ASSERT_TRUE(file.load("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
-                          "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n"));
+    ASSERT_TRUE(
+        file.load("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+                  "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n"));
     const Mesh& mesh = first(file.scene.geometries()).mesh;
     EXPECT_EQ(mesh.positions.size(), 4u);
     EXPECT_EQ(mesh.triangle_count(), 2u);
@@ -57,7 +60,8 @@ TEST(Obj, ConcavePolygonsAreTriangulatedInside) {
     EXPECT_EQ(mesh.triangle_count(), 4u);
     double area = 0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const glm::vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]], c = mesh.positions[mesh.indices[i + 2]];
+        const glm::vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
+                        c = mesh.positions[mesh.indices[i + 2]];
         const float z = glm::cross(b - a, c - a).z;
         EXPECT_GT(z, 0);
         area += 0.5 * z;
@@ -68,7 +72,9 @@ TEST(Obj, ConcavePolygonsAreTriangulatedInside) {
 TEST(Obj, ObjectsBecomeNodesAndMaterialsParts) {
     ObjFile file;
     file.folder.write("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
-    ASSERT_TRUE(file.load("mtllib m.mtl\n" + triangle + "o one\nusemtl red\nf 1 2 3\nusemtl blue\nf 3 2 1\nusemtl red\nf 2 3 1\no two\nusemtl blue\nf 1 2 3\n"));
+    ASSERT_TRUE(file.load(
+        "mtllib m.mtl\n" + triangle +
+        "o one\nusemtl red\nf 1 2 3\nusemtl blue\nf 3 2 1\nusemtl red\nf 2 3 1\no two\nusemtl blue\nf 1 2 3\n"));
     const Node& one = *file.scene.nodes().find(file.scene.find_node("one"));
     ASSERT_EQ(one.parts.size(), 2u);
     EXPECT_EQ(file.scene.geometries().find(one.parts[0].geometry)->mesh.triangle_count(), 2u);
@@ -78,7 +84,8 @@ TEST(Obj, ObjectsBecomeNodesAndMaterialsParts) {
 
 TEST(Obj, PbrKeysArrive) {
     ObjFile file;
-    file.folder.write("m.mtl", "newmtl a\nKd 0.1 0.2 0.3\nKe 5 6 7\nPr 0.25\nPm 0.75\nPc 0.5\nPcr 0.125\nNi 1.4\nd 0.5\n");
+    file.folder.write("m.mtl",
+                      "newmtl a\nKd 0.1 0.2 0.3\nKe 5 6 7\nPr 0.25\nPm 0.75\nPc 0.5\nPcr 0.125\nNi 1.4\nd 0.5\n");
     ASSERT_TRUE(file.load("mtllib m.mtl\n" + triangle + "usemtl a\nf 1 2 3\n"));
     const Material& material = file.material("a");
     EXPECT_EQ(material.base_color, glm::vec3(0.1f, 0.2f, 0.3f));
@@ -108,7 +115,9 @@ TEST(Obj, MapsArePackedAndTransformed) {
     file.folder.write("metal.png", tests::png(1, 1, 1, {200}));
     file.folder.write("normal.png", tests::png(1, 1, 3, {128, 128, 255}));
     file.folder.write("alpha.png", tests::png(2, 1, 1, {255, 255}));
-    file.folder.write("m.mtl", "newmtl a\nmap_Kd -s 2 3 1 -o 0.5 0.25 0 color.png\nmap_Pr rough.png\nmap_Pm metal.png\nnorm normal.png\nmap_d alpha.png\n");
+    file.folder.write("m.mtl",
+                      "newmtl a\nmap_Kd -s 2 3 1 -o 0.5 0.25 0 color.png\nmap_Pr rough.png\nmap_Pm metal.png\nnorm "
+                      "normal.png\nmap_d alpha.png\n");
     const auto root = file.load("mtllib m.mtl\n" + triangle + "vt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n");
     ASSERT_TRUE(root) << root.error().text();
     const Material& material = file.material("a");
@@ -120,7 +129,8 @@ TEST(Obj, MapsArePackedAndTransformed) {
     EXPECT_EQ(orm.levels[0], (std::vector<std::uint8_t>{255, 100, 200, 255}));
     EXPECT_EQ(file.scene.textures().size(), 3u);
     // OBJ's uv (1, 1) is glTF's (1, 0); MTL's 2·1 + 0.5 and 3·1 + 0.25 are then (2.5, 1 − 3.25).
-    const glm::vec2 moved = material.base_color_texture.uv_matrix * glm::vec2(1, 0) + material.base_color_texture.uv_offset;
+    const glm::vec2 moved =
+        material.base_color_texture.uv_matrix * glm::vec2(1, 0) + material.base_color_texture.uv_offset;
     EXPECT_EQ(moved, glm::vec2(2.5f, -2.25f));
     EXPECT_FALSE(first(file.scene.geometries()).mesh.tangents.empty());
 }

@@ -29,7 +29,8 @@ void expect_sound(const Geometry& geometry) {
     std::size_t bad_indices = 0, bad_normals = 0, bad_tangents = 0;
     for (const std::uint32_t index : mesh.indices) bad_indices += index >= mesh.positions.size();
     for (const glm::vec3& normal : mesh.normals) bad_normals += !(std::abs(glm::length(normal) - 1) < 1e-4f);
-    for (const glm::vec4& tangent : mesh.tangents) bad_tangents += !(std::abs(glm::length(glm::vec3(tangent)) - 1) < 1e-4f);
+    for (const glm::vec4& tangent : mesh.tangents)
+        bad_tangents += !(std::abs(glm::length(glm::vec3(tangent)) - 1) < 1e-4f);
     EXPECT_EQ(bad_indices + bad_normals + bad_tangents, 0u) << geometry.name;
     EXPECT_EQ(geometry.bounds.min, mesh.bounds().min);
     EXPECT_EQ(geometry.bounds.max, mesh.bounds().max);
@@ -77,9 +78,12 @@ TEST_P(SharedModel, PeakMemoryStaysBelowThreeTimesWhatIsDecoded) {
 // sponza.glb: 57 images of which 23 occlusion-roughness-metallic ones each serve two references; the
 // helmet packs occlusion with roughness and metal.
 INSTANTIATE_TEST_SUITE_P(Import, SharedModel,
-                         testing::Values(Expected{"models/car.glb", 145917, 0, 46, 45, 8}, Expected{"models/damaged-helmet.glb", 15452, 0, 1, 1, 4},
-                                         Expected{"models/dragon.glb", 348503, 579, 1, 1, 0}, Expected{"models/lucy.glb", 79976, 7, 1, 1, 0},
-                                         Expected{"models/sponza.glb", 262267, 0, 25, 25, 57}, Expected{"models/suzanne.glb", 15744, 0, 1, 1, 0},
+                         testing::Values(Expected{"models/car.glb", 145917, 0, 46, 45, 8},
+                                         Expected{"models/damaged-helmet.glb", 15452, 0, 1, 1, 4},
+                                         Expected{"models/dragon.glb", 348503, 579, 1, 1, 0},
+                                         Expected{"models/lucy.glb", 79976, 7, 1, 1, 0},
+                                         Expected{"models/sponza.glb", 262267, 0, 25, 25, 57},
+                                         Expected{"models/suzanne.glb", 15744, 0, 1, 1, 0},
                                          Expected{"models/teapot.obj", 6320, 0, 1, 0, 0}),
                          [](const auto& info) {
                              std::string name = std::filesystem::path(info.param.file).stem().string();
@@ -100,8 +104,10 @@ TEST(SharedModels, TheTeapotIsSmoothWithCreases) {
 }
 
 TEST(SharedModels, SceneFilesLoad) {
-    for (const auto& [name, triangles] : {std::pair{"scenes/natus.heliodon.json", std::size_t(449967)}, {"scenes/sponza.heliodon.json", std::size_t(262267)},
-                                          {"scenes/cornell-point.heliodon.json", std::size_t(34)}, {"scenes/car.heliodon.json", std::size_t(145919)}}) {
+    for (const auto& [name, triangles] : {std::pair{"scenes/natus.heliodon.json", std::size_t(449967)},
+                                          {"scenes/sponza.heliodon.json", std::size_t(262267)},
+                                          {"scenes/cornell-point.heliodon.json", std::size_t(34)},
+                                          {"scenes/car.heliodon.json", std::size_t(145919)}}) {
         const auto path = tests::shared_path(name);
         if (!path) GTEST_SKIP() << "no shared data";
         Warnings warnings;

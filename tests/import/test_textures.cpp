@@ -43,7 +43,8 @@ TEST(Textures, DataIsFilteredAsItIs) {
 TEST(Textures, ConstantTexturesStayConstantAtEveryLevel) {
     for (int byte = 0; byte < 256; ++byte) {
         std::vector<std::uint8_t> texels;
-        for (int i = 0; i < 15; ++i) texels.insert(texels.end(), {std::uint8_t(byte), std::uint8_t(byte), std::uint8_t(byte), 255});
+        for (int i = 0; i < 15; ++i)
+            texels.insert(texels.end(), {std::uint8_t(byte), std::uint8_t(byte), std::uint8_t(byte), 255});
         Texture texture = texture_of(5, 3, TextureFormat::srgb8, texels);
         build_mip_chain(texture);
         for (const auto& level : texture.levels) EXPECT_EQ(level[0], byte);
@@ -67,7 +68,8 @@ TEST(Textures, OddSizesKeepTheirMean) {
         for (int size = std::max(width, height); size > 1; size /= 2) ++levels;
         ASSERT_EQ(int(texture.levels.size()), levels);
         for (int k = 0; k < levels; ++k)
-            EXPECT_EQ(texture.levels[std::size_t(k)].size(), std::size_t(std::max(1, width >> k)) * std::max(1, height >> k) * 16);
+            EXPECT_EQ(texture.levels[std::size_t(k)].size(),
+                      std::size_t(std::max(1, width >> k)) * std::max(1, height >> k) * 16);
         glm::vec4 last;
         std::memcpy(&last, texture.levels.back().data(), sizeof last);
         for (int c = 0; c < 4; ++c) EXPECT_NEAR(last[c], mean[c], 1e-3 * mean[c]);
@@ -85,7 +87,8 @@ TEST(Textures, MaskedTexturesKeepTheirCoveredArea) {
     constexpr int size = 64;
     std::vector<std::uint8_t> texels;
     std::mt19937 random(5);
-    for (int i = 0; i < size * size; ++i) texels.insert(texels.end(), {90, 120, 40, std::uint8_t(random() % 5 == 0 ? 255 : 0)});
+    for (int i = 0; i < size * size; ++i)
+        texels.insert(texels.end(), {90, 120, 40, std::uint8_t(random() % 5 == 0 ? 255 : 0)});
     const auto covered = [](const std::vector<std::uint8_t>& level) {
         std::size_t above = 0;
         for (std::size_t i = 3; i < level.size(); i += 4) above += level[i] >= 128;
@@ -95,7 +98,8 @@ TEST(Textures, MaskedTexturesKeepTheirCoveredArea) {
     build_mip_chain(plain);
     import::build_mip_chain(masked, 0.5f);
     EXPECT_LT(covered(plain.levels[2]), 0.05) << "filtered alpha alone thins leaves out";
-    for (std::size_t level = 1; level < 4; ++level) EXPECT_NEAR(covered(masked.levels[level]), covered(masked.levels[0]), 0.06) << level;
+    for (std::size_t level = 1; level < 4; ++level)
+        EXPECT_NEAR(covered(masked.levels[level]), covered(masked.levels[0]), 0.06) << level;
 }
 
 TEST(Textures, UnmippedTexturesHaveOneLevel) {
