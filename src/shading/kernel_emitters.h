@@ -110,6 +110,12 @@ SHADING_FN float kernel_sphere_cone(SHADING_IN(KernelEmitter) emitter, vec3 from
     return one_minus_cos_from_sin2(emitter.area * emitter.area / dot(to_center, to_center));
 }
 
+/// Rectangles that appear smaller are sampled by area, where single precision keeps more digits than the sum of
+/// the solid angle's four corners: their solid angle is as good as even over them.
+SHADING_FN bool kernel_sees_solid_angle(SphericalRectangle rectangle) {
+    return rectangle.solid_angle > 0.05f && rectangle.z0 < -1.0e-4f * (rectangle.x1 - rectangle.x0);
+}
+
 /// Density per steradian with which kernel_sample_surface, from `from`, picks the point `position` of this
 /// emitter, whose normal there is `normal`.
 SHADING_FN float kernel_surface_pdf(SHADING_IN(KernelEmitter) emitter, vec3 from, vec3 position, vec3 normal) {
@@ -120,6 +126,12 @@ SHADING_FN float kernel_surface_pdf(SHADING_IN(KernelEmitter) emitter, vec3 from
         return 0.0f;
     }
     float area = emitter.area;
+    if (emitter.kind == kernel_emitter_rectangle) {
+        const SphericalRectangle rectangle = spherical_rectangle(emitter.origin, emitter.edge0, emitter.edge1, from);
+        if (kernel_sees_solid_angle(rectangle)) {
+            return 1.0f / rectangle.solid_angle;
+        }
+    }
     if (emitter.kind == kernel_emitter_sphere) {
         if (kernel_sees_cone(emitter, from)) {
             return cone_pdf(kernel_sphere_cone(emitter, from));
@@ -182,12 +194,19 @@ SHADING_FN KernelHit kernel_point_on_emitter(SHADING_IN(KernelEmitter) emitter, 
         const vec3 weights = sample_triangle(u);
         hit.barycentric = vec2(weights.y, weights.z);
     }
+    if (emitter.kind == kernel_emitter_rectangle) {
+        const SphericalRectangle rectangle = spherical_rectangle(emitter.origin, emitter.edge0, emitter.edge1, from);
+        if (kernel_sees_solid_angle(rectangle)) {
+            hit.barycentric = sample_spherical_rectangle(rectangle, u);
+        }
+    }
     position = emitter.origin + emitter.edge0 * hit.barycentric.x + emitter.edge1 * hit.barycentric.y;
-    if (emitter.kind == kernel_emitter_quad) {
+    if (emitter.kind == kernel_emitter_quad || emitter.kind == kernel_emitter_rectangle) {
         // Its two triangles: (0, u, u + v) and (0, u + v, v).
-        const bool lower = u.x >= u.y;
+        const vec2 along = hit.barycentric;
+        const bool lower = along.x >= along.y;
         hit.primitive = lower ? 0u : 1u;
-        hit.barycentric = lower ? vec2(u.x - u.y, u.y) : vec2(u.x, u.y - u.x);
+        hit.barycentric = lower ? vec2(along.x - along.y, along.y) : vec2(along.x, along.y - along.x);
     }
     return hit;
 }

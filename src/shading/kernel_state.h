@@ -59,6 +59,7 @@ SHADING_CONST uint kernel_emitter_quad = 2u;  // a parallelogram
 SHADING_CONST uint kernel_emitter_disk = 3u;
 SHADING_CONST uint kernel_emitter_sphere = 4u;
 SHADING_CONST uint kernel_emitter_sky = 5u;
+SHADING_CONST uint kernel_emitter_rectangle = 6u;  // a quad of perpendicular edges
 
 struct KernelEmitter {
     vec3 origin;  // world; triangle, quad: a corner; disk, sphere: the centre

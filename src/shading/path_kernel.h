@@ -9,7 +9,7 @@
 //
 // Opens no namespace: GLSL includes it at global scope after the definitions below; C++ inside the struct
 // that has them as members (in a namespace that sees heliodon::shading). Include before it, outside:
-// shading/{bsdf, light, material_eval, sky, kernel_sampler, kernel_state}.h. The includer defines
+// shading/{bsdf, light, material_eval, sky, spherical_rectangle, kernel_sampler, kernel_state}.h. The includer defines
 //
 //   what material_fetch.h wants:    scene_texture, scene_texture_size
 //   KernelFrame kernel_frame()

@@ -10,6 +10,7 @@
 #include "shading/light.h"
 #include "shading/material_eval.h"
 #include "shading/sky.h"
+#include "shading/spherical_rectangle.h"
 #include "trace/emitter_table.h"
 #include "trace/geometry_table.h"
 #include "trace/texture_table.h"
@@ -41,7 +42,9 @@ struct CpuKernel {
     vec3 fetch_normal(uint geometry, uint vertex) const { return geometry_table[geometry].normals[vertex]; }
     vec4 fetch_tangent(uint geometry, uint vertex) const { return geometry_table[geometry].tangents[vertex]; }
     vec4 fetch_color(uint geometry, uint vertex) const { return geometry_table[geometry].colors[vertex]; }
-    vec2 fetch_texcoord(uint geometry, uint set, uint vertex) const { return geometry_table[geometry].texcoords[set][vertex]; }
+    vec2 fetch_texcoord(uint geometry, uint set, uint vertex) const {
+        return geometry_table[geometry].texcoords[set][vertex];
+    }
     const KernelEmitter& fetch_emitter(uint index) const { return emitter_table.emitters[index]; }
     uint fetch_first_emitter(uint instance) const { return emitter_table.first_emitter[instance]; }
     uint fetch_light_emitter(uint light) const { return emitter_table.light_emitter[light]; }

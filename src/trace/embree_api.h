@@ -32,6 +32,8 @@ inline void embree_occluded(RTCScene scene, RTCRay& ray) {
 
 /// A geometry inside an instance answers every ray mask; the instance's own mask decides. (Embree 3 starts
 /// geometries with all bits set, Embree 4 with the lowest one.)
-inline void embree_answer_every_mask(RTCGeometry geometry) { rtcSetGeometryMask(geometry, 0xffffffffu); }
+inline void embree_answer_every_mask(RTCGeometry geometry) {
+    rtcSetGeometryMask(geometry, 0xffffffffu);
+}
 
 }  // namespace heliodon::trace

@@ -65,8 +65,12 @@ void shape_bounds(const RTCBoundsFunctionArguments* arguments) {
     *arguments->bounds_o = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, 0};
 }
 
-glm::dvec3 origin_of(const RTCRay& ray) { return {ray.org_x, ray.org_y, ray.org_z}; }
-glm::dvec3 direction_of(const RTCRay& ray) { return {ray.dir_x, ray.dir_y, ray.dir_z}; }
+glm::dvec3 origin_of(const RTCRay& ray) {
+    return {ray.org_x, ray.org_y, ray.org_z};
+}
+glm::dvec3 direction_of(const RTCRay& ray) {
+    return {ray.dir_x, ray.dir_y, ray.dir_z};
+}
 
 void shape_intersect(const RTCIntersectFunctionNArguments* arguments) {
     if (!arguments->valid[0]) return;
@@ -130,7 +134,8 @@ unsigned mask_of(const convert::FlatScene& flat, std::uint32_t index) {
 Result<void> EmbreeScene::open_device() {
     if (device_) return {};
     device_.reset(rtcNewDevice(nullptr));
-    if (!device_) return fail("", fmt::format("cannot start Embree (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));
+    if (!device_)
+        return fail("", fmt::format("cannot start Embree (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));
     return {};
 }
 
@@ -152,11 +157,12 @@ Result<void> EmbreeScene::build_geometry(const Geometry* geometry, Level& level)
     } else {
         const std::uint32_t highest = *std::max_element(mesh.indices.begin(), mesh.indices.end());
         if (highest >= mesh.positions.size())
-            return fail(geometry->name, fmt::format("expected vertex indices below {}, found {}", mesh.positions.size(), highest));
+            return fail(geometry->name,
+                        fmt::format("expected vertex indices below {}, found {}", mesh.positions.size(), highest));
         triangles.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
         // Shared, never copied: Mesh's arrays are padded for Embree's 16-byte reads.
-        rtcSetSharedGeometryBuffer(triangles.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
-                                   sizeof(glm::vec3), mesh.positions.size());
+        rtcSetSharedGeometryBuffer(triangles.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
+                                   0, sizeof(glm::vec3), mesh.positions.size());
         rtcSetSharedGeometryBuffer(triangles.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                                    3 * sizeof(std::uint32_t), mesh.triangle_count());
     }
@@ -167,7 +173,8 @@ Result<void> EmbreeScene::build_geometry(const Geometry* geometry, Level& level)
     rtcAttachGeometryByID(level.scene.get(), triangles.get(), 0);
     rtcCommitScene(level.scene.get());
     const RTCError error = rtcGetDeviceError(device_.get());
-    if (error != RTC_ERROR_NONE) return fail(geometry->name, fmt::format("Embree cannot build it (error {})", static_cast<int>(error)));
+    if (error != RTC_ERROR_NONE)
+        return fail(geometry->name, fmt::format("Embree cannot build it (error {})", static_cast<int>(error)));
     return {};
 }
 
@@ -185,7 +192,8 @@ bool EmbreeScene::place_instance(const convert::FlatScene& flat, std::uint32_t i
     if (level_rebuilt || !instance.attached || instance.level != data.geometry)
         rtcSetGeometryInstancedScene(instance.geometry.get(), levels_[data.geometry].scene.get());
     instance.level = data.geometry;
-    rtcSetGeometryTransform(instance.geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(data.object_to_world));
+    rtcSetGeometryTransform(instance.geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                            glm::value_ptr(data.object_to_world));
     instance.mask = mask_of(flat, index);
     rtcSetGeometryMask(instance.geometry.get(), instance.mask);
     rtcCommitGeometry(instance.geometry.get());
@@ -248,7 +256,8 @@ Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const co
         });
     }
     const RTCError error = rtcGetDeviceError(device_.get());
-    if (error != RTC_ERROR_NONE) return fail("", fmt::format("Embree cannot build the scene (error {})", static_cast<int>(error)));
+    if (error != RTC_ERROR_NONE)
+        return fail("", fmt::format("Embree cannot build the scene (error {})", static_cast<int>(error)));
     return result;
 }
 

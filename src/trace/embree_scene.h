@@ -21,7 +21,8 @@ struct EmbreeRelease {
 };
 using DeviceReference = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease<RTCDevice, rtcReleaseDevice>>;
 using SceneReference = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease<RTCScene, rtcReleaseScene>>;
-using GeometryReference = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeRelease<RTCGeometry, rtcReleaseGeometry>>;
+using GeometryReference =
+    std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeRelease<RTCGeometry, rtcReleaseGeometry>>;
 
 /// Answers the kernel's rays on the CPU: one Embree scene a geometry, over the scene's own vertex arrays,
 /// and a top level of instances numbered as FlatScene numbers them.

@@ -7,13 +7,15 @@
 namespace heliodon::trace {
 namespace {
 
-using shading::KernelEmitter;
 using shading::kernel_no_emitter;
+using shading::KernelEmitter;
 
 constexpr double pi = std::numbers::pi;
 
 // Luminance weights of Rec. 709 (ITU-R BT.709-6, item 3.2).
-double luminance(const glm::vec3& rgb) { return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722)); }
+double luminance(const glm::vec3& rgb) {
+    return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
 
 /// Emitters with their flux in lumen, grouped: one group a light, an emissive instance or the sky.
 struct Draft {
@@ -30,12 +32,16 @@ struct Draft {
 double light_flux(const shading::LightData& light, double scene_radius) {
     const double intensity = luminance(light.intensity);
     switch (light.type) {
-        case shading::light_type_point: return 4 * pi * intensity;
-        case shading::light_type_lambertian: return pi * intensity;
+        case shading::light_type_point:
+            return 4 * pi * intensity;
+        case shading::light_type_lambertian:
+            return pi * intensity;
         case shading::light_type_spot:
             return 2 * pi * intensity * ((1.0 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3.0);
-        case shading::light_type_directional: return intensity * pi * scene_radius * scene_radius;
-        default: return 0;
+        case shading::light_type_directional:
+            return intensity * pi * scene_radius * scene_radius;
+        default:
+            return 0;
     }
 }
 
@@ -57,7 +63,8 @@ void add_lights(const convert::FlatScene& flat, double scene_radius, EmitterTabl
 
 /// The emitted luminance relative to the material's, over a triangle: at its corners and middle, and a part
 /// of the whole texture's so that a bright spot between them is not missed altogether.
-double texture_weight(const Mesh& mesh, const shading::TextureRef& use, const TextureTable& textures, std::uint32_t triangle) {
+double texture_weight(const Mesh& mesh, const shading::TextureRef& use, const TextureTable& textures,
+                      std::uint32_t triangle) {
     if (use.texture_index == shading::no_texture) return 1;
     const auto& texcoords = mesh.texcoords[use.texcoord & 1];
     if (texcoords.empty()) return 1;
@@ -66,7 +73,8 @@ double texture_weight(const Mesh& mesh, const shading::TextureRef& use, const Te
     for (int k = 0; k < 3; ++k) uv[k] = matrix * texcoords[mesh.indices[3 * triangle + k]] + use.uv_offset;
     const glm::vec2 middle = (uv[0] + uv[1] + uv[2]) / 3.0f;
     double sum = luminance(glm::vec3(textures.sample(use.texture_index, middle)));
-    for (const glm::vec2& corner : uv) sum += luminance(glm::vec3(textures.sample(use.texture_index, glm::mix(middle, corner, 0.7f))));
+    for (const glm::vec2& corner : uv)
+        sum += luminance(glm::vec3(textures.sample(use.texture_index, glm::mix(middle, corner, 0.7f))));
     constexpr double floor = 0.02;  // of full emission: an estimate only, the sampling stays unbiased
     return sum / 4 + floor;
 }
@@ -77,17 +85,20 @@ void add_triangles(const Geometry& geometry, const shading::MaterialData& materi
     emitter.kind = shading::kernel_emitter_triangle;
     for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
         glm::vec3 corner[3];
-        for (int k = 0; k < 3; ++k) corner[k] = glm::vec3(world * glm::vec4(mesh.positions[mesh.indices[3 * triangle + k]], 1));
+        for (int k = 0; k < 3; ++k)
+            corner[k] = glm::vec3(world * glm::vec4(mesh.positions[mesh.indices[3 * triangle + k]], 1));
         emitter.origin = corner[0];
         emitter.edge0 = corner[1] - corner[0];
         emitter.edge1 = corner[2] - corner[0];
         emitter.primitive = triangle;
         emitter.area = 0.5f * glm::length(glm::cross(emitter.edge0, emitter.edge1));
-        draft.add(emitter, luminous_exitance * emitter.area * texture_weight(mesh, material.emission_texture, textures, triangle));
+        draft.add(emitter, luminous_exitance * emitter.area *
+                               texture_weight(mesh, material.emission_texture, textures, triangle));
     }
 }
 
-void add_shape(const Shape& shape, const glm::mat4& world, KernelEmitter emitter, double luminous_exitance, Draft& draft) {
+void add_shape(const Shape& shape, const glm::mat4& world, KernelEmitter emitter, double luminous_exitance,
+               Draft& draft) {
     const glm::mat3 linear(world);
     if (const auto* quad = std::get_if<Quad>(&shape)) {
         emitter.kind = shading::kernel_emitter_quad;
@@ -95,6 +106,9 @@ void add_shape(const Shape& shape, const glm::mat4& world, KernelEmitter emitter
         emitter.edge0 = linear * quad->u;
         emitter.edge1 = linear * quad->v;
         emitter.area = glm::length(glm::cross(emitter.edge0, emitter.edge1));
+        const float skew =
+            glm::dot(emitter.edge0, emitter.edge1) / (glm::length(emitter.edge0) * glm::length(emitter.edge1));
+        if (std::abs(skew) < 1e-5f) emitter.kind = shading::kernel_emitter_rectangle;
         draft.add(emitter, luminous_exitance * emitter.area);
     } else if (const auto* disk = std::get_if<Disk>(&shape)) {
         emitter.kind = shading::kernel_emitter_disk;
@@ -124,8 +138,10 @@ void add_instances(const convert::FlatScene& flat, const TextureTable& textures,
         const shading::InstanceData& instance = flat.instances()[i];
         if (!(instance.flags & shading::instance_flag_visible) || !flat.geometries()[instance.geometry]) continue;
         const shading::MaterialData& material = flat.materials()[instance.material];
-        const bool unlit = material.model == shading::material_model_unlit;
-        if (unlit || !(material.flags & shading::material_flag_emissive)) continue;
+        if (!(material.flags & shading::material_flag_emissive)) continue;
+        table.scattered_emission = true;
+        // Unlit surfaces show a picture and are no lamps: seen where a ray meets them, never aimed at.
+        if (material.model == shading::material_model_unlit) continue;
         const Geometry& geometry = *flat.geometries()[instance.geometry];
         const double sides = material.flags & shading::material_flag_two_sided ? 2 : 1;
         const double exitance = sides * pi * luminance(material.emission_nits);
@@ -133,7 +149,6 @@ void add_instances(const convert::FlatScene& flat, const TextureTable& textures,
         emitter.index = i;
         emitter.orientation = instance.determinant_sign;
         table.first_emitter[i] = static_cast<std::uint32_t>(draft.emitters.size());
-        table.scattered_emission = true;
         draft.begin_group();
         if (geometry.shape && !std::holds_alternative<Box>(*geometry.shape))
             add_shape(*geometry.shape, instance.object_to_world, emitter, exitance, draft);
@@ -142,7 +157,8 @@ void add_instances(const convert::FlatScene& flat, const TextureTable& textures,
     }
 }
 
-void add_sky(const convert::FlatScene& flat, const TextureTable& textures, double scene_radius, EmitterTable& table, Draft& draft) {
+void add_sky(const convert::FlatScene& flat, const TextureTable& textures, double scene_radius, EmitterTable& table,
+             Draft& draft) {
     const shading::SkyData& sky = flat.sky();
     if (sky.model == shading::sky_model_none) return;
     table.scattered_emission = true;
@@ -164,7 +180,8 @@ void add_sky(const convert::FlatScene& flat, const TextureTable& textures, doubl
             double sum = 0;
             for (int y = y0; y <= y1; ++y)
                 for (int x = x0; x <= x1; ++x)
-                    sum += luminance(glm::vec3(textures.sample(sky.texture_index, {(x + 0.5f) / size.x, std::clamp((y + 0.5f) / size.y, 0.0f, 1.0f)})));
+                    sum += luminance(glm::vec3(textures.sample(
+                        sky.texture_index, {(x + 0.5f) / size.x, std::clamp((y + 0.5f) / size.y, 0.0f, 1.0f)})));
             const double average = std::max(0.0, sum) / ((x1 - x0 + 1) * (y1 - y0 + 1));
             weights[static_cast<std::size_t>(row) * columns + column] = average * cap;
             mean += 0.5 * average * cap / columns;
@@ -214,7 +231,8 @@ void normalize(const Draft& draft, EmitterTable& table) {
     for (std::size_t group = 0; group < group_flux.size(); ++group) {
         for (std::size_t i = draft.group_begin[group]; i < group_end(group); ++i) {
             const double share = group_flux[group] > 0 ? draft.flux[i] / group_flux[group] : 0.0;
-            const double probability = lit_groups ? 0.5 * draft.flux[i] / total + 0.5 * share / static_cast<double>(lit_groups) : 0.0;
+            const double probability =
+                lit_groups ? 0.5 * draft.flux[i] / total + 0.5 * share / static_cast<double>(lit_groups) : 0.0;
             cumulative += probability;
             table.emitters[i].probability = static_cast<float>(probability);
             table.emitters[i].cumulative = static_cast<float>(cumulative);

@@ -25,6 +25,7 @@ struct EmitterTable {
     bool scattered_emission = false;  ///< any light that a scattered ray can meet
 };
 
-[[nodiscard]] EmitterTable build_emitters(const convert::FlatScene& flat, const TextureTable& textures, bool environment);
+[[nodiscard]] EmitterTable build_emitters(const convert::FlatScene& flat, const TextureTable& textures,
+                                          bool environment);
 
 }  // namespace heliodon::trace

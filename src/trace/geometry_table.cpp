@@ -46,9 +46,9 @@ GeometryTable build_geometry_table(const convert::FlatScene& flat) {
         const Geometry* geometry = flat.geometries()[i];
         if (!geometry) continue;
         const Mesh& mesh = geometry->mesh;
-        table[i] = {mesh.indices.data(),   mesh.positions.data(),
-                    mesh.normals.data(),   mesh.tangents.data(),
-                    mesh.colors.data(),    {mesh.texcoords[0].data(), mesh.texcoords[1].data()},
+        table[i] = {mesh.indices.data(),       mesh.positions.data(),
+                    mesh.normals.data(),       mesh.tangents.data(),
+                    mesh.colors.data(),        {mesh.texcoords[0].data(), mesh.texcoords[1].data()},
                     kernel_geometry(*geometry)};
     }
     return table;

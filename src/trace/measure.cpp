@@ -12,9 +12,12 @@ constexpr int batch_count = 32;
 constexpr double student_95 = 2.0395134;  // two-sided 95 % quantile of Student's t, 31 degrees of freedom
 
 // Luminance weights of Rec. 709 (ITU-R BT.709-6, item 3.2).
-double luminance(const glm::dvec3& rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+double luminance(const glm::dvec3& rgb) {
+    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
 
-shading::PathState begin(CpuKernel& kernel, const Sensor& sensor, float offset_m, std::uint32_t stream, std::uint32_t sample) {
+shading::PathState begin(CpuKernel& kernel, const Sensor& sensor, float offset_m, std::uint32_t stream,
+                         std::uint32_t sample) {
     const vec3 direction = glm::normalize(sensor.direction);
     // A sensor on a surface looks out from it.
     const vec3 position = sensor.position + offset_m * direction;
@@ -24,8 +27,9 @@ shading::PathState begin(CpuKernel& kernel, const Sensor& sensor, float offset_m
 
 }  // namespace
 
-std::vector<SensorReading> measure_sensors(const Scene& scene, const CpuKernel& shared_kernel, const EmbreeScene& embree,
-                                           const PathOptions& options, const Progress& progress) {
+std::vector<SensorReading> measure_sensors(const Scene& scene, const CpuKernel& shared_kernel,
+                                           const EmbreeScene& embree, const PathOptions& options,
+                                           const Progress& progress) {
     constexpr float offset = 1e-4f;  // of the scene's size
     const Bounds bounds = shared_kernel.flat.bounds();
     const float offset_m = bounds.empty() ? 0.0f : offset * bounds.diagonal();

@@ -6,7 +6,8 @@ namespace heliodon::trace {
 
 /// Every sensor's reading: the mean of independent batches, and the 95 % half-width of that mean from
 /// Student's distribution.
-[[nodiscard]] std::vector<SensorReading> measure_sensors(const Scene& scene, const CpuKernel& kernel, const EmbreeScene& embree,
-                                                         const PathOptions& options, const Progress& progress);
+[[nodiscard]] std::vector<SensorReading> measure_sensors(const Scene& scene, const CpuKernel& kernel,
+                                                         const EmbreeScene& embree, const PathOptions& options,
+                                                         const Progress& progress);
 
 }  // namespace heliodon::trace

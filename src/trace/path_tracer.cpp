@@ -11,25 +11,34 @@
 namespace heliodon {
 namespace {
 
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 Result<void> check_camera(const Camera& camera) {
     const glm::vec3 view = camera.target - camera.position;
-    if (!is_finite(camera.position) || !is_finite(camera.target) || !is_finite(camera.up) || !(glm::dot(view, view) > 0))
-        return fail(fmt::format("camera '{}'", camera.name), "expected finite positions and a target apart from the camera");
+    if (!is_finite(camera.position) || !is_finite(camera.target) || !is_finite(camera.up) ||
+        !(glm::dot(view, view) > 0))
+        return fail(fmt::format("camera '{}'", camera.name),
+                    "expected finite positions and a target apart from the camera");
     if (!(camera.vertical_fov_rad > 0 && camera.vertical_fov_rad < std::numbers::pi_v<float>))
-        return fail(fmt::format("camera '{}'", camera.name), fmt::format("expected a vertical field of view between 0 and 180°, found {}°",
-                                                                         glm::degrees(camera.vertical_fov_rad)));
+        return fail(fmt::format("camera '{}'", camera.name),
+                    fmt::format("expected a vertical field of view between 0 and 180°, found {}°",
+                                glm::degrees(camera.vertical_fov_rad)));
     return {};
 }
 
 Result<void> check_options(const PathOptions& options) {
     constexpr int most = 65536;
     if (options.width < 1 || options.height < 1 || options.width > most || options.height > most)
-        return fail("", fmt::format("expected a picture size from 1x1 to {0}x{0}, found {1}x{2}", most, options.width, options.height));
-    if (options.samples_per_pixel < 1) return fail("", fmt::format("expected at least 1 sample, found {}", options.samples_per_pixel));
-    if (options.max_depth < 0) return fail("", fmt::format("expected a depth of 0 (unlimited) or more, found {}", options.max_depth));
-    if (options.seconds && !(*options.seconds > 0)) return fail("", fmt::format("expected more than 0 seconds, found {}", *options.seconds));
+        return fail("", fmt::format("expected a picture size from 1x1 to {0}x{0}, found {1}x{2}", most, options.width,
+                                    options.height));
+    if (options.samples_per_pixel < 1)
+        return fail("", fmt::format("expected at least 1 sample, found {}", options.samples_per_pixel));
+    if (options.max_depth < 0)
+        return fail("", fmt::format("expected a depth of 0 (unlimited) or more, found {}", options.max_depth));
+    if (options.seconds && !(*options.seconds > 0))
+        return fail("", fmt::format("expected more than 0 seconds, found {}", *options.seconds));
     return trace::check_aovs(options.aovs);
 }
 
@@ -102,8 +111,8 @@ Result<TraceUpdate> PathTracer::update(const Scene& scene) try {
     return fail("", fmt::format("the tracing database cannot follow the scene: {}", exception.what()));
 }
 
-Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const PathOptions& options, PathStatistics* statistics,
-                                   const Progress& progress) try {
+Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const PathOptions& options,
+                                   PathStatistics* statistics, const Progress& progress) try {
     if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
     if (auto checked = check_camera(camera); !checked) return tl::unexpected(checked.error());
     if (!state_->ready) return fail("", "expected the tracer to have followed the scene before it renders");
@@ -119,7 +128,8 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
     return fail("", fmt::format("the path tracer cannot render: {}", exception.what()));
 }
 
-Result<std::vector<SensorReading>> PathTracer::measure(const Scene& scene, const PathOptions& options, const Progress& progress) try {
+Result<std::vector<SensorReading>> PathTracer::measure(const Scene& scene, const PathOptions& options,
+                                                       const Progress& progress) try {
     if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
     if (!state_->ready) return fail("", "expected the tracer to have followed the scene before it measures");
     return trace::measure_sensors(scene, state_->kernel(options), state_->embree, options, progress);

@@ -19,13 +19,16 @@ namespace {
 
 constexpr std::array aov_names{"albedo", "normal", "depth", "position", "direct", "indirect"};
 
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 template <class Visit>
 void each_pixel(const PathOptions& options, Visit&& visit) {
     constexpr int tile = 16;
     const tbb::blocked_range2d<int> range(0, options.height, tile, 0, options.width, tile);
-    tbb::parallel_for(range, [&](const tbb::blocked_range2d<int>& part) { visit(part); }, tbb::simple_partitioner());
+    tbb::parallel_for(
+        range, [&](const tbb::blocked_range2d<int>& part) { visit(part); }, tbb::simple_partitioner());
 }
 
 /// What the first surface that the camera meets through a pixel is like, summed over samples.
@@ -45,11 +48,13 @@ void add_first_surface(CpuKernel& kernel, const EmbreeScene& scene, shading::Pat
         const MaterialPoint at = kernel.material_at(material, point.texcoord0, point.texcoord1, point.color, false);
         const bool front = glm::dot(path.direction, point.geometric_normal) < 0;
         const vec3 geometric = front ? point.geometric_normal : -point.geometric_normal;
-        const vec3 normal = usable_shading_normal(kernel.kernel_mapped_normal(hit, point, material), geometric, -path.direction);
+        const vec3 normal =
+            usable_shading_normal(kernel.kernel_mapped_normal(hit, point, material), geometric, -path.direction);
         sum.albedo += glm::dvec3(at.surface.base_color);
         sum.normal += glm::dvec3(normal);
         sum.position += glm::dvec3(point.position);
-        sum.depth += glm::dot(glm::dvec3(point.position - kernel.frame.camera_position), glm::dvec3(kernel.frame.camera_forward));
+        sum.depth += glm::dot(glm::dvec3(point.position - kernel.frame.camera_position),
+                              glm::dvec3(kernel.frame.camera_forward));
         ++sum.hits;
         return;
     }
@@ -61,8 +66,10 @@ bool wants(const PathOptions& options, std::string_view name) {
 
 /// Albedo and normal are box-filtered like the picture (nothing counts as 0); depth and position are means over
 /// what was hit.
-void add_surface_layers(const CpuKernel& shared_kernel, const EmbreeScene& scene, const PathOptions& options, int samples, Picture& picture) {
-    const bool any = wants(options, "albedo") || wants(options, "normal") || wants(options, "depth") || wants(options, "position");
+void add_surface_layers(const CpuKernel& shared_kernel, const EmbreeScene& scene, const PathOptions& options,
+                        int samples, Picture& picture) {
+    const bool any =
+        wants(options, "albedo") || wants(options, "normal") || wants(options, "depth") || wants(options, "position");
     if (!any) return;
     constexpr int most_samples = 64;  // enough to filter edges as the picture's are
     const int count = std::min(samples, most_samples);
@@ -155,7 +162,8 @@ Picture render_picture(const CpuKernel& shared_kernel, const EmbreeScene& scene,
             const int end = options.seconds ? done + step : std::min(done + step, options.samples_per_pixel);
             add_samples(done, end);
             done = end;
-            const double fraction = options.seconds ? elapsed() / *options.seconds : static_cast<double>(done) / options.samples_per_pixel;
+            const double fraction =
+                options.seconds ? elapsed() / *options.seconds : static_cast<double>(done) / options.samples_per_pixel;
             if (progress && !progress(std::min(1.0, fraction))) break;
         }
         add_surface_layers(shared_kernel, scene, options, done, picture);

@@ -24,7 +24,8 @@ struct PathCounts {
 };
 
 /// Follows one path to its end. Light that is no finite number is counted and left out.
-[[nodiscard]] PathResult follow_path(CpuKernel& kernel, const EmbreeScene& scene, shading::PathState& path, PathCounts& counts);
+[[nodiscard]] PathResult follow_path(CpuKernel& kernel, const EmbreeScene& scene, shading::PathState& path,
+                                     PathCounts& counts);
 
 /// Runs `work` on `threads` threads, or on all cores where that is 0.
 void run_on_threads(int threads, const std::function<void()>& work);

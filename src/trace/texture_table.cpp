@@ -9,7 +9,8 @@ void TextureTable::update(const convert::FlatScene& flat) {
         const double encoded = byte / 255.0;
         linear_[byte] = static_cast<float>(encoded);
         // IEC 61966-2-1:1999, the inverse of the sRGB transfer function.
-        srgb_[byte] = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+        srgb_[byte] =
+            static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
     }
     entries_.assign(flat.textures().size(), {});
     for (std::size_t i = 0; i < entries_.size(); ++i) {

@@ -11,8 +11,8 @@ namespace heliodon::tests {
 
 void report(const std::string& name, double expected, const SensorReading& reading) {
     if (!std::getenv("HELIODON_VALIDATION_TABLE")) return;
-    std::printf("| %s | %.7g | %.7g | %.2g | %+.3f %% |\n", name.c_str(), expected, reading.value, reading.half_width_95,
-                expected != 0 ? 100 * (reading.value / expected - 1) : 0.0);
+    std::printf("| %s | %.7g | %.7g | %.2g | %+.3f %% |\n", name.c_str(), expected, reading.value,
+                reading.half_width_95, expected != 0 ? 100 * (reading.value / expected - 1) : 0.0);
 }
 
 namespace {
@@ -25,11 +25,14 @@ constexpr float unit_exitance = static_cast<float>(1 / pi);
 
 /// The mean of `F` over the receiver from a grid of Gauss-Legendre points (5 by 5): smooth integrands need no more.
 constexpr double gauss_points[5] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842, 0.953089922969332};
-constexpr double gauss_weights[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683, 0.118463442528095};
+constexpr double gauss_weights[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683,
+                                     0.118463442528095};
 
-double mean_over_unit_square(Scene& scene, glm::vec3 origin, glm::vec3 u, glm::vec3 v, glm::vec3 normal, double& half_width) {
+double mean_over_unit_square(Scene& scene, glm::vec3 origin, glm::vec3 u, glm::vec3 v, glm::vec3 normal,
+                             double& half_width) {
     for (const double s : gauss_points)
-        for (const double t : gauss_points) add_lux(scene, origin + static_cast<float>(s) * u + static_cast<float>(t) * v, normal);
+        for (const double t : gauss_points)
+            add_lux(scene, origin + static_cast<float>(s) * u + static_cast<float>(t) * v, normal);
     const auto readings = measure(scene, samples / 4, 1);
     double mean = 0, variance = 0;
     for (int i = 0; i < 25; ++i) {
@@ -41,7 +44,8 @@ double mean_over_unit_square(Scene& scene, glm::vec3 origin, glm::vec3 u, glm::v
     return mean;
 }
 
-void expect_form_factor(const std::string& name, double expected, double value, double half_width, double tolerance = 0.005) {
+void expect_form_factor(const std::string& name, double expected, double value, double half_width,
+                        double tolerance = 0.005) {
     SensorReading reading;
     reading.value = value;
     reading.half_width_95 = half_width;
@@ -69,7 +73,8 @@ TEST(FormFactors, PerpendicularSquaresExchangeWhatTheCatalogueSays) {
         double half_width = 0;
         const double value = mean_over_unit_square(scene, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}, half_width);
         // The illuminance jumps at the shared edge: five points a side carry 0.5 % of quadrature error.
-        expect_form_factor(fmt::format("perpendicular squares, height {:g}", height), expected, value, half_width, 0.01);
+        expect_form_factor(fmt::format("perpendicular squares, height {:g}", height), expected, value, half_width,
+                           0.01);
     }
 }
 
@@ -89,7 +94,8 @@ TEST(FormFactors, CoaxialDisksExchangeWhatTheCatalogueSays) {
             value += gauss_weights[i] * readings[i].value;
             variance += std::pow(gauss_weights[i] * readings[i].half_width_95, 2);
         }
-        expect_form_factor(fmt::format("coaxial disks, radii {:g} and {:g}, distance {:g}", c.r1, c.r2, c.distance), c.expected, value, std::sqrt(variance));
+        expect_form_factor(fmt::format("coaxial disks, radii {:g} and {:g}, distance {:g}", c.r1, c.r2, c.distance),
+                           c.expected, value, std::sqrt(variance));
     }
 }
 
@@ -98,7 +104,8 @@ TEST(FormFactors, APointUnderASquareOrATriangleSeesWhatLambertSays) {
         Scene scene;
         add_shape(scene, Quad{{-.5f, distance, -.5f}, {1, 0, 0}, {0, 0, 1}}, lambert(0, unit_exitance));
         add_lux(scene, {0, 0, 0}, {0, 1, 0});
-        expect_reading(fmt::format("point under a unit square, distance {:g}", distance), expected, measure(scene, samples, 1)[0]);
+        expect_reading(fmt::format("point under a unit square, distance {:g}", distance), expected,
+                       measure(scene, samples, 1)[0]);
     }
     Scene scene;
     add_mesh(scene, triangle_mesh({{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}), lambert(0, unit_exitance));
@@ -143,7 +150,7 @@ TEST(Cie171, LambertianPointSourceCase52) {
         float x, z;
         double lux;
     };
-    const Point points[] = {{0, 0, 111.11}, {.5f, 0, 105.21}, {1, 0, 90.02}, {1.5f, 0, 71.11}, {.5f, .5f, 99.73},
+    const Point points[] = {{0, 0, 111.11},  {.5f, 0, 105.21},   {1, 0, 90.02}, {1.5f, 0, 71.11}, {.5f, .5f, 99.73},
                             {1, .5f, 85.64}, {1.5f, .5f, 68.06}, {1, 1, 74.36}, {1.5f, 1, 59.98}, {1.5f, 1.5f, 49.39}};
     Scene scene;
     Light light = point_light(1000);
@@ -161,12 +168,15 @@ TEST(Cie171, LambertianPointSourceCase52) {
 }
 
 /// The report's room: 4 × 4 × 3 m, x and y across, z up; here (x, z, y).
-glm::vec3 room(float x, float y, float z) { return {x, z, y}; }
+glm::vec3 room(float x, float y, float z) {
+    return {x, z, y};
+}
 
 TEST(Cie171, AreaSourceInTheCeilingCase53) {
     Scene scene;
     add_shape(scene, Quad{room(1.5f, 1.5f, 3), {1, 0, 0}, {0, 0, 1}}, lambert(0, 1000));
-    const std::pair<float, double> wall[] = {{2.75f, 32.677}, {2.25f, 75.194}, {1.75f, 81.323}, {1.25f, 69.061}, {.75f, 53.404}, {.25f, 40.002}};
+    const std::pair<float, double> wall[] = {{2.75f, 32.677}, {2.25f, 75.194}, {1.75f, 81.323},
+                                             {1.25f, 69.061}, {.75f, 53.404},  {.25f, 40.002}};
     const std::pair<float, double> floor[] = {{.25f, 61.424}, {.75f, 79.255}, {1.25f, 95.667}, {1.75f, 105.778}};
     for (const auto& [z, lux] : wall) add_lux(scene, room(2, 0, z), room(0, 1, 0));
     for (const auto& [y, lux] : floor) add_lux(scene, room(2, y, 0), room(0, 0, 1));
@@ -208,14 +218,17 @@ TEST(Cie171, LightOffAnEvenlyLitFloorCase56) {
     // The floor as an emitter of luminance 1/π: E is then E/(E_hz ρ).
     Scene scene;
     add_shape(scene, Quad{room(0, 0, 0), {0, 0, 4}, {4, 0, 0}}, lambert(0, unit_exitance));
-    const std::pair<float, double> wall[] = {{.75f, 35.9005}, {1.25f, 27.9916}, {1.75f, 21.6385}, {2.25f, 16.7163}, {2.75f, 12.9674}};
+    const std::pair<float, double> wall[] = {
+        {.75f, 35.9005}, {1.25f, 27.9916}, {1.75f, 21.6385}, {2.25f, 16.7163}, {2.75f, 12.9674}};
     const std::pair<float, double> ceiling[] = {{.25f, 26.7952}, {.75f, 30.9387}, {1.25f, 33.9757}, {1.75f, 35.5666}};
     for (const auto& [z, percent] : wall) add_lux(scene, room(2, 0, z), room(0, 1, 0));
     for (const auto& [y, percent] : ceiling) add_lux(scene, room(2, y, 3), room(0, 0, -1));
     const auto readings = measure(scene, 2 * samples);
     std::size_t i = 0;
-    for (const auto& [z, percent] : wall) expect_reading(fmt::format("CIE 171 5.6 wall, z {:g}", z), percent / 100, readings[i++]);
-    for (const auto& [y, percent] : ceiling) expect_reading(fmt::format("CIE 171 5.6 ceiling, y {:g}", y), percent / 100, readings[i++]);
+    for (const auto& [z, percent] : wall)
+        expect_reading(fmt::format("CIE 171 5.6 wall, z {:g}", z), percent / 100, readings[i++]);
+    for (const auto& [y, percent] : ceiling)
+        expect_reading(fmt::format("CIE 171 5.6 ceiling, y {:g}", y), percent / 100, readings[i++]);
 }
 
 TEST(Cie171, LightOffAWallPastABlackObstacleCase57) {
@@ -236,7 +249,8 @@ TEST(Cie171, LightOffAWallPastABlackObstacleCase57) {
 }
 
 TEST(Cie171, InterreflectionInACubeCase58) {
-    for (const auto& [reflectance, expected] : {std::pair{.2f, 26.0417}, std::pair{.5f, 104.1667}, std::pair{.8f, 416.667}, std::pair{.9f, 937.5}}) {
+    for (const auto& [reflectance, expected] :
+         {std::pair{.2f, 26.0417}, std::pair{.5f, 104.1667}, std::pair{.8f, 416.667}, std::pair{.9f, 937.5}}) {
         Scene scene;
         const float h = 2;
         const Material material = lambert(reflectance);

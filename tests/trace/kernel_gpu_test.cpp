@@ -35,13 +35,16 @@ public:
         std::vector<KernelGeometry> geometries;
         for (std::size_t i = 0; i < kernel.geometry_table.size(); ++i) {
             const Mesh& mesh = kernel.flat.geometries()[i]->mesh;
-            places.insert(places.end(), {static_cast<std::uint32_t>(positions.size()), static_cast<std::uint32_t>(indices.size())});
+            places.insert(places.end(),
+                          {static_cast<std::uint32_t>(positions.size()), static_cast<std::uint32_t>(indices.size())});
             positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
             normals.insert(normals.end(), mesh.normals.begin(), mesh.normals.end());
             indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
             geometries.push_back(kernel.geometry_table[i].kernel);
         }
-        const auto append = [&](const auto& more) { emitter_indices.insert(emitter_indices.end(), more.begin(), more.end()); };
+        const auto append = [&](const auto& more) {
+            emitter_indices.insert(emitter_indices.end(), more.begin(), more.end());
+        };
         append(kernel.emitter_table.light_emitter);
         append(kernel.emitter_table.visible_lights);
         add("frames", std::span(&kernel.frame, 1));
@@ -60,7 +63,8 @@ public:
     }
     template <class T>
     gpu::Buffer make(const std::string& name, std::span<const T> values) {
-        gpu::Buffer buffer = value_of(gpu::Buffer::create(device_, {name, std::max<std::size_t>(values.size_bytes(), 16)}));
+        gpu::Buffer buffer =
+            value_of(gpu::Buffer::create(device_, {name, std::max<std::size_t>(values.size_bytes(), 16)}));
         if (!values.empty()) EXPECT_TRUE(device_.upload(buffer, values));
         return buffer;
     }
@@ -85,11 +89,13 @@ bool close(const glm::vec3& a, const glm::vec3& b, float scale) {
 /// Directions, light and places agree; so do the path's decisions.
 bool agree(const PathState& a, const PathState& b) {
     const bool scattered = a.stage == kernel_stage_scatter || a.after_shadow == kernel_stage_scatter;
-    return a.stage == b.stage && a.depth == b.depth && a.pass_count == b.pass_count && close(a.radiance, b.radiance, 1) &&
-           close(a.direct, b.direct, 1) &&
-           (a.stage != kernel_stage_shadow || (close(a.shadow_light, b.shadow_light, 1e-2f) && close(a.shadow_direction, b.shadow_direction, 1) &&
-                                               close(a.shadow_origin, b.shadow_origin, 1) && a.after_shadow == b.after_shadow)) &&
-           (!scattered || (close(a.origin, b.origin, 1) && close(a.direction, b.direction, 1) && close(a.throughput, b.throughput, 1e-2f)));
+    return a.stage == b.stage && a.depth == b.depth && a.pass_count == b.pass_count &&
+           close(a.radiance, b.radiance, 1) && close(a.direct, b.direct, 1) &&
+           (a.stage != kernel_stage_shadow ||
+            (close(a.shadow_light, b.shadow_light, 1e-2f) && close(a.shadow_direction, b.shadow_direction, 1) &&
+             close(a.shadow_origin, b.shadow_origin, 1) && a.after_shadow == b.after_shadow)) &&
+           (!scattered || (close(a.origin, b.origin, 1) && close(a.direction, b.direction, 1) &&
+                           close(a.throughput, b.throughput, 1e-2f)));
 }
 
 TEST(Kernel, OnTheDeviceTakesTheSameStepsAsOnTheHost) {
@@ -108,11 +114,21 @@ TEST(Kernel, OnTheDeviceTakesTheSameStepsAsOnTheHost) {
     const GeometryTable geometries = build_geometry_table(flat);
     const EmitterTable emitters = build_emitters(flat, textures, true);
     CpuKernel kernel{flat, geometries, textures, emitters, {}};
-    kernel.frame = {.camera_position = {0, 1, 3.4f}, .width = 64, .camera_forward = {0, 0, -1}, .height = 64,
-                    .camera_right = {.36f, 0, 0}, .max_depth = 0, .camera_up = {0, .36f, 0}, .seed = 7,
+    kernel.frame = {.camera_position = {0, 1, 3.4f},
+                    .width = 64,
+                    .camera_forward = {0, 0, -1},
+                    .height = 64,
+                    .camera_right = {.36f, 0, 0},
+                    .max_depth = 0,
+                    .camera_up = {0, .36f, 0},
+                    .seed = 7,
                     .emitter_count = static_cast<std::uint32_t>(emitters.emitters.size()),
-                    .visible_light_count = static_cast<std::uint32_t>(emitters.visible_lights.size()), .environment = 1,
-                    .sky_emitter = emitters.sky_emitter, .sky_columns = 0, .sky_rows = 0, .scattered_emission = 1};
+                    .visible_light_count = static_cast<std::uint32_t>(emitters.visible_lights.size()),
+                    .environment = 1,
+                    .sky_emitter = emitters.sky_emitter,
+                    .sky_columns = 0,
+                    .sky_rows = 0,
+                    .scattered_emission = 1};
 
     const std::uint32_t count = 64 * 64;
     DeviceTables tables(*device, kernel);

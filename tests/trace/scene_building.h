@@ -13,7 +13,9 @@ namespace heliodon::tests {
 
 inline constexpr double pi = std::numbers::pi;
 
-inline double luminance(const glm::dvec3& rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+inline double luminance(const glm::dvec3& rgb) {
+    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
 
 inline Material lambert(float reflectance, float emission_nits = 0, bool two_sided = false) {
     Material material;
@@ -65,12 +67,16 @@ inline Light point_light(float intensity_cd, float radius_m = 0) {
 }
 
 /// A rotation that turns −Z to −Y: a lamp in the ceiling aims down.
-inline glm::quat aiming_down() { return glm::angleAxis(-static_cast<float>(pi) / 2, glm::vec3(1, 0, 0)); }
+inline glm::quat aiming_down() {
+    return glm::angleAxis(-static_cast<float>(pi) / 2, glm::vec3(1, 0, 0));
+}
 
 inline void add_sensor(Scene& scene, SensorType type, glm::vec3 position, glm::vec3 direction) {
     scene.add_sensor({"sensor " + std::to_string(scene.sensors().size()), type, position, direction});
 }
-inline void add_lux(Scene& scene, glm::vec3 position, glm::vec3 normal) { add_sensor(scene, SensorType::illuminance, position, normal); }
+inline void add_lux(Scene& scene, glm::vec3 position, glm::vec3 normal) {
+    add_sensor(scene, SensorType::illuminance, position, normal);
+}
 
 inline Camera looking(glm::vec3 position, glm::vec3 target, float fov_deg = 40) {
     Camera camera;
@@ -126,7 +132,8 @@ inline std::vector<SensorReading> measure(const Scene& scene, int samples, int m
     return readings ? *readings : std::vector<SensorReading>{};
 }
 
-inline Picture render(const Scene& scene, const Camera& camera, const PathOptions& options, PathStatistics* statistics = nullptr) {
+inline Picture render(const Scene& scene, const Camera& camera, const PathOptions& options,
+                      PathStatistics* statistics = nullptr) {
     PathTracer tracer;
     const auto updated = tracer.update(scene);
     EXPECT_TRUE(updated) << (updated ? "" : updated.error().text());
@@ -147,7 +154,8 @@ void report(const std::string& name, double expected, const SensorReading& readi
 
 /// Within half a percent of `expected`, and what is left is no systematic error: within the reading's own
 /// 95 % half-width three times over.
-inline void expect_reading(const std::string& name, double expected, const SensorReading& reading, double tolerance = 0.005) {
+inline void expect_reading(const std::string& name, double expected, const SensorReading& reading,
+                           double tolerance = 0.005) {
     report(name, expected, reading);
     EXPECT_NEAR(reading.value, expected, tolerance * expected) << name;
     EXPECT_NEAR(reading.value, expected, 3 * reading.half_width_95 + 2e-4 * expected) << name;

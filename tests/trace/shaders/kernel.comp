@@ -35,6 +35,7 @@ float shading_table(uint index) { return tables[index]; }
 #include "shading/light.h"
 #include "shading/material_eval.h"
 #include "shading/sky.h"
+#include "shading/spherical_rectangle.h"
 
 KernelFrame kernel_frame() { return frames[0]; }
 InstanceData fetch_instance(uint i) { return instances[i]; }
