@@ -22,10 +22,9 @@ Result<void> BindlessTextures::open(std::uint32_t capacity) {
     vkGetPhysicalDeviceProperties2(device_.physical_device(), &properties);
     // A combined image sampler counts against the limits of both; some are left to the passes' own sets.
     constexpr std::uint32_t reserved = 64;
-    const std::uint32_t most = std::min({limits.maxPerStageDescriptorUpdateAfterBindSampledImages,
-                                         limits.maxPerStageDescriptorUpdateAfterBindSamplers,
-                                         limits.maxDescriptorSetUpdateAfterBindSampledImages,
-                                         limits.maxDescriptorSetUpdateAfterBindSamplers});
+    const std::uint32_t most = std::min(
+        {limits.maxPerStageDescriptorUpdateAfterBindSampledImages, limits.maxPerStageDescriptorUpdateAfterBindSamplers,
+         limits.maxDescriptorSetUpdateAfterBindSampledImages, limits.maxDescriptorSetUpdateAfterBindSamplers});
     capacity_ = std::clamp(capacity, 1u, std::max(most, reserved + 1) - reserved);
 
     const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, capacity_,
@@ -98,8 +97,10 @@ Result<std::uint32_t> BindlessTextures::add(const Image& image, VkSampler sample
         return fail(image.name(), fmt::format("the table of {} textures is full", capacity_));
     const std::uint32_t slot = free_.empty() ? next_ : free_.back();
     if (auto replaced = replace(slot, image, sampler); !replaced) return tl::unexpected(replaced.error());
-    if (free_.empty()) ++next_;
-    else free_.pop_back();
+    if (free_.empty())
+        ++next_;
+    else
+        free_.pop_back();
     ++used_;
     return slot;
 }
@@ -116,7 +117,8 @@ void BindlessTextures::remove(std::uint32_t slot) {
     // Until the GPU is done with the slot it may still be read: the default comes back and the slot is given
     // again only then.
     device_.retire([this, slot] {
-        if (auto view = default_image_.view({&default_image_}, VK_IMAGE_VIEW_TYPE_2D)) write(slot, *view, default_sampler_);
+        if (auto view = default_image_.view({&default_image_}, VK_IMAGE_VIEW_TYPE_2D))
+            write(slot, *view, default_sampler_);
         free_.push_back(slot);
         --used_;
     });

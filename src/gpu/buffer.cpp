@@ -24,9 +24,9 @@ VmaAllocationCreateInfo allocation_info(BufferMemory memory) {
     if (memory == BufferMemory::device) return info;
     info.usage = memory == BufferMemory::upload ? VMA_MEMORY_USAGE_AUTO : VMA_MEMORY_USAGE_AUTO_PREFER_HOST;
     info.requiredFlags = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    info.flags = VMA_ALLOCATION_CREATE_MAPPED_BIT | (memory == BufferMemory::upload
-                                                         ? VMA_ALLOCATION_CREATE_HOST_ACCESS_SEQUENTIAL_WRITE_BIT
-                                                         : VMA_ALLOCATION_CREATE_HOST_ACCESS_RANDOM_BIT);
+    info.flags = VMA_ALLOCATION_CREATE_MAPPED_BIT |
+                 (memory == BufferMemory::upload ? VMA_ALLOCATION_CREATE_HOST_ACCESS_SEQUENTIAL_WRITE_BIT
+                                                 : VMA_ALLOCATION_CREATE_HOST_ACCESS_RANDOM_BIT);
     return info;
 }
 
@@ -73,19 +73,25 @@ Result<Buffer> Buffer::create_in(Device& device, const BufferDescription& descri
     return buffer;
 }
 
-Buffer::~Buffer() { reset(); }
+Buffer::~Buffer() {
+    reset();
+}
 
 void Buffer::reset() {
     if (!handle_) return;
-    device_->retire([device = device_->handle(), allocator = device_->allocator(), handle = handle_,
-                     allocation = allocation_] {
-        if (allocation) vmaDestroyBuffer(allocator, handle, allocation);
-        else vkDestroyBuffer(device, handle, nullptr);
-    });
+    device_->retire(
+        [device = device_->handle(), allocator = device_->allocator(), handle = handle_, allocation = allocation_] {
+            if (allocation)
+                vmaDestroyBuffer(allocator, handle, allocation);
+            else
+                vkDestroyBuffer(device, handle, nullptr);
+        });
     handle_ = VK_NULL_HANDLE;
 }
 
-Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+Buffer::Buffer(Buffer&& other) noexcept {
+    *this = std::move(other);
+}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
     if (this == &other) return *this;

@@ -37,8 +37,10 @@ class Buffer {
 public:
     [[nodiscard]] static Result<Buffer> create(Device& device, const BufferDescription& description);
     /// In memory that somebody else owns; it must have been sized by memory_requirements().
-    [[nodiscard]] static Result<Buffer> create_in(Device& device, const BufferDescription& description, SharedMemory memory);
-    [[nodiscard]] static VkMemoryRequirements memory_requirements(const Device& device, const BufferDescription& description);
+    [[nodiscard]] static Result<Buffer> create_in(Device& device, const BufferDescription& description,
+                                                  SharedMemory memory);
+    [[nodiscard]] static VkMemoryRequirements memory_requirements(const Device& device,
+                                                                  const BufferDescription& description);
     Buffer() = default;
     ~Buffer();
     Buffer(Buffer&& other) noexcept;

@@ -73,7 +73,8 @@ Result<VkDescriptorSet> CommandRecording::allocate(VkDescriptorSetLayout layout)
         const VkResult result = vkAllocateDescriptorSets(device.handle(), &info, &set);
         if (result == VK_SUCCESS) return set;
         const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;
-        if (!full || (fresh && descriptor_pool > 4096)) return vulkan_failure(name, "cannot allocate descriptors", result);
+        if (!full || (fresh && descriptor_pool > 4096))
+            return vulkan_failure(name, "cannot allocate descriptors", result);
     }
 }
 

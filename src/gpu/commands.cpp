@@ -52,9 +52,15 @@ Commands::~Commands() {
     device.recordings_.push_back(std::move(recording_));
 }
 
-VkCommandBuffer Commands::handle() const { return recording_->buffer; }
-Device& Commands::device() const { return recording_->device; }
-const std::optional<Error>& Commands::error() const { return recording_->error; }
+VkCommandBuffer Commands::handle() const {
+    return recording_->buffer;
+}
+Device& Commands::device() const {
+    return recording_->device;
+}
+const std::optional<Error>& Commands::error() const {
+    return recording_->error;
+}
 
 void Commands::fail(std::string where, std::string message) {
     if (recording_->error) return;
@@ -87,8 +93,10 @@ void Commands::copy(const ImageView& from, const ImageView& to) {
     region.dstSubresource = layers_of(to);
     region.extent = from.image->extent(from.base_mip);
     const VkExtent3D target = to.image->extent(to.base_mip);
-    if (region.extent.width != target.width || region.extent.height != target.height || region.extent.depth != target.depth)
-        return fail(fmt::format("copy of image '{}' to '{}'", from.image->name(), to.image->name()), "their sizes differ");
+    if (region.extent.width != target.width || region.extent.height != target.height ||
+        region.extent.depth != target.depth)
+        return fail(fmt::format("copy of image '{}' to '{}'", from.image->name(), to.image->name()),
+                    "their sizes differ");
     vkCmdCopyImage(handle(), from.image->handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.image->handle(),
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
@@ -103,7 +111,8 @@ void Commands::copy(const ImageView& from, const Buffer& to, VkDeviceSize to_off
     if (to_offset + bytes > to.size())
         return fail(fmt::format("copy of image '{}' to buffer '{}'", from.image->name(), to.name()),
                     fmt::format("{} bytes at {} do not fit in {}", bytes, to_offset, to.size()));
-    vkCmdCopyImageToBuffer(handle(), from.image->handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1, &region);
+    vkCmdCopyImageToBuffer(handle(), from.image->handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1,
+                           &region);
 }
 
 void Commands::blit(const ImageView& from, const ImageView& to, VkFilter filter) {
@@ -148,8 +157,9 @@ void Commands::memory_barrier(const Access& before, const Access& after) {
 }
 
 void Commands::compute_barrier() {
-    memory_barrier({VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-                   {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT});
+    memory_barrier(
+        {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+        {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT});
 }
 
 void Commands::barriers(std::span<const VkImageMemoryBarrier2> images, std::span<const VkMemoryBarrier2> memory) {

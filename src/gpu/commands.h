@@ -86,7 +86,8 @@ public:
     template <class Push>
     void dispatch_threads(const ComputePipeline& pipeline, const Push& push, std::initializer_list<Binding> bindings,
                           glm::uvec3 threads) {
-        dispatch_bytes(pipeline, bytes_of(push), Bindings(bindings.begin(), bindings.size()), groups_for(pipeline, threads));
+        dispatch_bytes(pipeline, bytes_of(push), Bindings(bindings.begin(), bindings.size()),
+                       groups_for(pipeline, threads));
     }
     template <class Push>
     void dispatch_threads(const ComputePipeline& pipeline, const Push& push, Bindings bindings, glm::uvec3 threads) {
@@ -96,7 +97,8 @@ public:
     template <class Push>
     void dispatch_indirect(const ComputePipeline& pipeline, const Push& push, std::initializer_list<Binding> bindings,
                            const Buffer& indirect, VkDeviceSize offset = 0) {
-        dispatch_indirect_bytes(pipeline, bytes_of(push), Bindings(bindings.begin(), bindings.size()), indirect, offset);
+        dispatch_indirect_bytes(pipeline, bytes_of(push), Bindings(bindings.begin(), bindings.size()), indirect,
+                                offset);
     }
 
     /// Viewport and scissor are set to the area.
@@ -130,7 +132,8 @@ public:
                        std::uint32_t stride = sizeof(VkDrawIndirectCommand));
 
     void fill(const Buffer& buffer, std::uint32_t value, VkDeviceSize offset = 0, VkDeviceSize size = VK_WHOLE_SIZE);
-    void copy(const Buffer& from, const Buffer& to, VkDeviceSize bytes, VkDeviceSize from_offset = 0, VkDeviceSize to_offset = 0);
+    void copy(const Buffer& from, const Buffer& to, VkDeviceSize bytes, VkDeviceSize from_offset = 0,
+              VkDeviceSize to_offset = 0);
     /// Same extent and format, mip 0 and layer 0 of each part; TRANSFER_SRC and TRANSFER_DST layouts.
     void copy(const ImageView& from, const ImageView& to);
     void copy(const ImageView& from, const Buffer& to, VkDeviceSize to_offset = 0);
@@ -159,17 +162,20 @@ private:
     template <class Push>
     [[nodiscard]] static std::span<const std::byte> bytes_of(const Push& push) {
         static_assert(std::is_trivially_copyable_v<Push>);
-        if constexpr (std::is_empty_v<Push>) return {};
-        else return std::as_bytes(std::span<const Push, 1>(&push, 1));
+        if constexpr (std::is_empty_v<Push>)
+            return {};
+        else
+            return std::as_bytes(std::span<const Push, 1>(&push, 1));
     }
     [[nodiscard]] static glm::uvec3 groups_for(const ComputePipeline& pipeline, glm::uvec3 threads);
-    void dispatch_bytes(const ComputePipeline& pipeline, std::span<const std::byte> push, Bindings bindings, glm::uvec3 groups);
+    void dispatch_bytes(const ComputePipeline& pipeline, std::span<const std::byte> push, Bindings bindings,
+                        glm::uvec3 groups);
     void dispatch_indirect_bytes(const ComputePipeline& pipeline, std::span<const std::byte> push, Bindings bindings,
                                  const Buffer& indirect, VkDeviceSize offset);
     void bind_bytes(const GraphicsPipeline& pipeline, std::span<const std::byte> push, Bindings bindings);
     [[nodiscard]] bool can_draw();
-    [[nodiscard]] bool bind_resources(VkPipelineBindPoint point, const Pipeline& pipeline, std::span<const std::byte> push,
-                                      Bindings bindings);
+    [[nodiscard]] bool bind_resources(VkPipelineBindPoint point, const Pipeline& pipeline,
+                                      std::span<const std::byte> push, Bindings bindings);
 
     std::unique_ptr<CommandRecording> recording_;
 };

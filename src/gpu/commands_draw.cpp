@@ -13,13 +13,20 @@ namespace {
 
 const char* type_name(VkDescriptorType type) {
     switch (type) {
-        case VK_DESCRIPTOR_TYPE_STORAGE_BUFFER: return "a storage buffer";
-        case VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER: return "a uniform buffer";
-        case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE: return "a storage image";
-        case VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE: return "a sampled image";
-        case VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER: return "an image with a sampler";
-        case VK_DESCRIPTOR_TYPE_SAMPLER: return "a sampler";
-        default: return "a resource of another kind";
+        case VK_DESCRIPTOR_TYPE_STORAGE_BUFFER:
+            return "a storage buffer";
+        case VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER:
+            return "a uniform buffer";
+        case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
+            return "a storage image";
+        case VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE:
+            return "a sampled image";
+        case VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER:
+            return "an image with a sampler";
+        case VK_DESCRIPTOR_TYPE_SAMPLER:
+            return "a sampler";
+        default:
+            return "a resource of another kind";
     }
 }
 
@@ -38,7 +45,8 @@ struct DescriptorWrites {
 
 Result<VkDescriptorBufferInfo> buffer_info(const ShaderBinding& declared, const Binding& given) {
     const Buffer* buffer = given.buffer;
-    if (!buffer || !*buffer) return fail("", fmt::format("is {}, but {} was given", type_name(declared.type), given_name(given)));
+    if (!buffer || !*buffer)
+        return fail("", fmt::format("is {}, but {} was given", type_name(declared.type), given_name(given)));
     const bool uniform = declared.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     if (uniform && !(buffer->description().usage & VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT))
         return fail("", fmt::format("is a uniform buffer, but buffer '{}' was not created as one", buffer->name()));
@@ -63,7 +71,8 @@ Result<VkDescriptorImageInfo> image_info(const ShaderBinding& declared, const Bi
                                  storage ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
 
-Result<void> add_write(DescriptorWrites& all, const ShaderBinding& declared, std::uint32_t element, const Binding& given) {
+Result<void> add_write(DescriptorWrites& all, const ShaderBinding& declared, std::uint32_t element,
+                       const Binding& given) {
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstBinding = declared.binding;
     write.dstArrayElement = element;
@@ -102,7 +111,8 @@ Result<void> collect_writes(DescriptorWrites& all, const Pipeline& pipeline, Bin
         std::string names;
         for (const ShaderBinding& declared : layout.bindings())
             names += fmt::format("{}{} '{}'", names.empty() ? "" : ", ", declared.binding, declared.name);
-        return fail(where, fmt::format("expected {} bindings ({}), found {}", layout.descriptor_count(), names, bindings.size()));
+        return fail(where, fmt::format("expected {} bindings ({}), found {}", layout.descriptor_count(), names,
+                                       bindings.size()));
     }
     // Reserved, because the writes point into these.
     all.buffers.reserve(bindings.size());
@@ -112,7 +122,8 @@ Result<void> collect_writes(DescriptorWrites& all, const Pipeline& pipeline, Bin
     for (const ShaderBinding& declared : layout.bindings())
         for (std::uint32_t element = 0; element < declared.count; ++element)
             if (auto added = add_write(all, declared, element, bindings[next++]); !added)
-                return fail(where, fmt::format("binding {} '{}' {}", declared.binding, declared.name, added.error().text()));
+                return fail(where,
+                            fmt::format("binding {} '{}' {}", declared.binding, declared.name, added.error().text()));
     return {};
 }
 
@@ -178,14 +189,14 @@ void Commands::dispatch_bytes(const ComputePipeline& pipeline, std::span<const s
     const auto& limit = device().limits().maxComputeWorkGroupCount;
     if (groups.x > limit[0] || groups.y > limit[1] || groups.z > limit[2])
         return fail(fmt::format("pipeline '{}'", pipeline.name()),
-                    fmt::format("{}×{}×{} workgroups exceed the device's {}×{}×{}", groups.x, groups.y, groups.z, limit[0],
-                                limit[1], limit[2]));
+                    fmt::format("{}×{}×{} workgroups exceed the device's {}×{}×{}", groups.x, groups.y, groups.z,
+                                limit[0], limit[1], limit[2]));
     if (!bind_resources(VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, push, bindings)) return;
     if (groups.x > 0 && groups.y > 0 && groups.z > 0) vkCmdDispatch(handle(), groups.x, groups.y, groups.z);
 }
 
-void Commands::dispatch_indirect_bytes(const ComputePipeline& pipeline, std::span<const std::byte> push, Bindings bindings,
-                                       const Buffer& indirect, VkDeviceSize offset) {
+void Commands::dispatch_indirect_bytes(const ComputePipeline& pipeline, std::span<const std::byte> push,
+                                       Bindings bindings, const Buffer& indirect, VkDeviceSize offset) {
     if (bind_resources(VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, push, bindings))
         vkCmdDispatchIndirect(handle(), indirect.handle(), offset);
 }
@@ -203,8 +214,10 @@ void Commands::begin_rendering(const Rendering& rendering) {
         const bool layered = rendering.layers > 1 || rendering.view_mask != 0;
         auto handle = view.image ? view.image->view(part, layered ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D)
                                  : Result<VkImageView>(heliodon::fail("attachment", "no image was given"));
-        if (handle) info.imageView = *handle;
-        else fail(handle.error().where, handle.error().message);
+        if (handle)
+            info.imageView = *handle;
+        else
+            fail(handle.error().where, handle.error().message);
         info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
         return info;
     };
@@ -266,7 +279,9 @@ void Commands::set_viewport(VkRect2D area) {
     set_scissor(area);
 }
 
-void Commands::set_scissor(VkRect2D area) { vkCmdSetScissor(handle(), 0, 1, &area); }
+void Commands::set_scissor(VkRect2D area) {
+    vkCmdSetScissor(handle(), 0, 1, &area);
+}
 
 void Commands::draw(std::uint32_t vertices, std::uint32_t instances, std::uint32_t first_vertex,
                     std::uint32_t first_instance) {
@@ -289,15 +304,16 @@ void Commands::draw_indexed(std::uint32_t indices, std::uint32_t instances, std:
     if (can_draw()) vkCmdDrawIndexed(handle(), indices, instances, first_index, vertex_offset, first_instance);
 }
 
-void Commands::draw_indexed_indirect(const Buffer& commands, VkDeviceSize offset, std::uint32_t count, std::uint32_t stride) {
+void Commands::draw_indexed_indirect(const Buffer& commands, VkDeviceSize offset, std::uint32_t count,
+                                     std::uint32_t stride) {
     if (can_draw() && count > 0) vkCmdDrawIndexedIndirect(handle(), commands.handle(), offset, count, stride);
 }
 
 void Commands::draw_indexed_indirect_count(const Buffer& commands, VkDeviceSize offset, const Buffer& count_buffer,
                                            VkDeviceSize count_offset, std::uint32_t max_count, std::uint32_t stride) {
     if (can_draw())
-        vkCmdDrawIndexedIndirectCount(handle(), commands.handle(), offset, count_buffer.handle(), count_offset, max_count,
-                                      stride);
+        vkCmdDrawIndexedIndirectCount(handle(), commands.handle(), offset, count_buffer.handle(), count_offset,
+                                      max_count, stride);
 }
 
 void Commands::draw_indirect(const Buffer& commands, VkDeviceSize offset, std::uint32_t count, std::uint32_t stride) {
@@ -306,8 +322,10 @@ void Commands::draw_indirect(const Buffer& commands, VkDeviceSize offset, std::u
 
 bool Commands::can_draw() {
     if (recording_->error) return false;
-    if (!recording_->rendering) fail("draw", "outside begin_rendering and end_rendering");
-    else if (!recording_->graphics) fail("draw", "no pipeline is bound");
+    if (!recording_->rendering)
+        fail("draw", "outside begin_rendering and end_rendering");
+    else if (!recording_->graphics)
+        fail("draw", "no pipeline is bound");
     return !recording_->error;
 }
 

@@ -83,8 +83,10 @@ Result<void> Device::open_logical_device(bool swapchain) {
 void Device::load_extension_functions(bool push_descriptors) {
     if (instance_->has_debug_names()) {
         const auto load = [&](const char* name) { return vkGetInstanceProcAddr(instance_->handle(), name); };
-        functions_.set_object_name = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));
-        functions_.begin_label = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(load("vkCmdBeginDebugUtilsLabelEXT"));
+        functions_.set_object_name =
+            reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));
+        functions_.begin_label =
+            reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(load("vkCmdBeginDebugUtilsLabelEXT"));
         functions_.end_label = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(load("vkCmdEndDebugUtilsLabelEXT"));
     }
     if (push_descriptors)
@@ -170,7 +172,8 @@ Result<TimelineValue> Device::submit_now(Commands commands, const SubmitSemaphor
     VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
     wait.semaphore = semaphores.wait;
     wait.stageMask = semaphores.wait_stages;
-    VkSemaphoreSubmitInfo signals[2]{{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}, {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}};
+    VkSemaphoreSubmitInfo signals[2]{{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO},
+                                     {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}};
     signals[0].semaphore = timeline_;
     signals[0].value = submitted_ + 1;
     signals[0].stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -227,13 +230,18 @@ Result<void> Device::upload(const Buffer& buffer, std::span<const std::byte> byt
     return uploads_->add(buffer, bytes, offset);
 }
 
-Result<void> Device::upload(const Image& image, std::span<const std::byte> bytes, std::uint32_t mip, std::uint32_t layer) {
+Result<void> Device::upload(const Image& image, std::span<const std::byte> bytes, std::uint32_t mip,
+                            std::uint32_t layer) {
     return uploads_->add(image, bytes, mip, layer);
 }
 
-std::uint64_t Device::bytes_uploaded() const { return uploads_->total_bytes(); }
+std::uint64_t Device::bytes_uploaded() const {
+    return uploads_->total_bytes();
+}
 
-VkPipelineCache Device::pipeline_cache() const { return pipeline_cache_->handle(); }
+VkPipelineCache Device::pipeline_cache() const {
+    return pipeline_cache_->handle();
+}
 
 void Device::retire(std::function<void()> destroy) {
     // Commands being recorded may use the thing too; each of them will be one more submission.

@@ -26,10 +26,11 @@ class PipelineCache;
 class Uploads;
 
 struct DeviceSettings {
-    std::string device;      ///< number or part of a name; empty: the best usable one
-    bool swapchain = false;  ///< enable presentation (the instance then needs a window system's extensions)
+    std::string device;                  ///< number or part of a name; empty: the best usable one
+    bool swapchain = false;              ///< enable presentation (the instance then needs a window system's extensions)
     std::uint32_t texture_slots = 4096;  ///< of the bindless table
-    /// Where compiled pipelines are kept between runs; unset: $XDG_CACHE_HOME/heliodon or ~/.cache/heliodon; empty: nowhere.
+    /// Where compiled pipelines are kept between runs; unset: $XDG_CACHE_HOME/heliodon or ~/.cache/heliodon; empty:
+    /// nowhere.
     std::optional<std::filesystem::path> pipeline_cache_directory;
 };
 
@@ -102,7 +103,8 @@ public:
     template <class T>
     [[nodiscard]] Result<std::vector<T>> read_back_as(const Buffer& buffer);
     template <class T>
-    [[nodiscard]] Result<std::vector<T>> read_back_as(const Image& image, std::uint32_t mip = 0, std::uint32_t layer = 0);
+    [[nodiscard]] Result<std::vector<T>> read_back_as(const Image& image, std::uint32_t mip = 0,
+                                                      std::uint32_t layer = 0);
     [[nodiscard]] std::uint64_t bytes_uploaded() const;  ///< since creation
 
     [[nodiscard]] BindlessTextures& textures() const { return *textures_; }

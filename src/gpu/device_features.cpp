@@ -37,8 +37,10 @@ constexpr std::array required_vulkan12 = {
     Feature<Vulkan12>{"descriptorBindingPartiallyBound", &Vulkan12::descriptorBindingPartiallyBound},
     Feature<Vulkan12>{"descriptorBindingSampledImageUpdateAfterBind",
                       &Vulkan12::descriptorBindingSampledImageUpdateAfterBind},
-    Feature<Vulkan12>{"descriptorBindingUpdateUnusedWhilePending", &Vulkan12::descriptorBindingUpdateUnusedWhilePending},
-    Feature<Vulkan12>{"shaderSampledImageArrayNonUniformIndexing", &Vulkan12::shaderSampledImageArrayNonUniformIndexing},
+    Feature<Vulkan12>{"descriptorBindingUpdateUnusedWhilePending",
+                      &Vulkan12::descriptorBindingUpdateUnusedWhilePending},
+    Feature<Vulkan12>{"shaderSampledImageArrayNonUniformIndexing",
+                      &Vulkan12::shaderSampledImageArrayNonUniformIndexing},
     Feature<Vulkan12>{"drawIndirectCount", &Vulkan12::drawIndirectCount},
     Feature<Vulkan12>{"scalarBlockLayout", &Vulkan12::scalarBlockLayout},
     Feature<Vulkan12>{"timelineSemaphore", &Vulkan12::timelineSemaphore},
@@ -69,7 +71,8 @@ constexpr std::array optional_vulkan12 = {
     Feature<Vulkan12>{"shaderFloat16", &Vulkan12::shaderFloat16},
     Feature<Vulkan12>{"storageBuffer8BitAccess", &Vulkan12::storageBuffer8BitAccess},
     Feature<Vulkan12>{"shaderBufferInt64Atomics", &Vulkan12::shaderBufferInt64Atomics},
-    Feature<Vulkan12>{"shaderStorageBufferArrayNonUniformIndexing", &Vulkan12::shaderStorageBufferArrayNonUniformIndexing},
+    Feature<Vulkan12>{"shaderStorageBufferArrayNonUniformIndexing",
+                      &Vulkan12::shaderStorageBufferArrayNonUniformIndexing},
 };
 constexpr std::array optional_vulkan13 = {
     Feature<Vulkan13>{"shaderDemoteToHelperInvocation", &Vulkan13::shaderDemoteToHelperInvocation},

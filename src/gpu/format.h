@@ -10,7 +10,8 @@ enum class FormatKind { floating, normalized, integer, depth };
 
 /// What the rooms need to know of a format, without asking a driver.
 struct FormatInfo {
-    std::uint32_t block_bytes = 0;   ///< bytes of a texel, or of a block of a compressed format; 0: format not known here
+    std::uint32_t block_bytes =
+        0;  ///< bytes of a texel, or of a block of a compressed format; 0: format not known here
     std::uint32_t block_extent = 1;  ///< texels along a block's side
     std::uint32_t channels = 4;
     FormatKind kind = FormatKind::floating;

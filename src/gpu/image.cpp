@@ -30,8 +30,8 @@ std::string place(const ImageDescription& description) {
     for (std::uint32_t mip = 0; mip < description.mips; ++mip)
         bytes += level_bytes(description.format, description.extent, mip) * description.layers * description.samples;
     return fmt::format("image '{}' ({}×{}×{}, {} layers, {} mips, {}, about {} bytes)", description.name,
-                       description.extent.width, description.extent.height, description.extent.depth, description.layers,
-                       description.mips, format_name(description.format), bytes);
+                       description.extent.width, description.extent.height, description.extent.depth,
+                       description.layers, description.mips, format_name(description.format), bytes);
 }
 
 Result<void> check(const Device& device, const ImageDescription& description) {
@@ -44,10 +44,11 @@ Result<void> check(const Device& device, const ImageDescription& description) {
         return fail(place(description), "a cube needs square faces and a multiple of 6 layers");
     const VkImageCreateInfo info = create_info(description);
     VkImageFormatProperties limits{};
-    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(device.physical_device(), info.format, info.imageType,
-                                                                     info.tiling, info.usage, info.flags, &limits);
+    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
+        device.physical_device(), info.format, info.imageType, info.tiling, info.usage, info.flags, &limits);
     if (result == VK_ERROR_FORMAT_NOT_SUPPORTED)
-        return fail(place(description), fmt::format("{} does not support this format for this use", device.info().name));
+        return fail(place(description),
+                    fmt::format("{} does not support this format for this use", device.info().name));
     if (result != VK_SUCCESS) return vulkan_failure(place(description), "cannot ask for its limits", result);
     if (extent.width > limits.maxExtent.width || extent.height > limits.maxExtent.height ||
         extent.depth > limits.maxExtent.depth || description.layers > limits.maxArrayLayers)
@@ -62,12 +63,14 @@ Result<void> check(const Device& device, const ImageDescription& description) {
 
 VkImageViewType natural_type(const ImageDescription& description, std::uint32_t layers) {
     switch (description.shape) {
-        case ImageShape::volume: return VK_IMAGE_VIEW_TYPE_3D;
+        case ImageShape::volume:
+            return VK_IMAGE_VIEW_TYPE_3D;
         case ImageShape::cube:
             if (layers == 6) return VK_IMAGE_VIEW_TYPE_CUBE;
             if (layers % 6 == 0) return VK_IMAGE_VIEW_TYPE_CUBE_ARRAY;
             break;
-        case ImageShape::flat: break;
+        case ImageShape::flat:
+            break;
     }
     return layers == 1 ? VK_IMAGE_VIEW_TYPE_2D : VK_IMAGE_VIEW_TYPE_2D_ARRAY;
 }
@@ -125,12 +128,15 @@ Image Image::borrow(Device& device, const ImageDescription& description, VkImage
     return image;
 }
 
-VkExtent3D Image::extent(std::uint32_t mip) const { return level_extent(description_.extent, mip); }
+VkExtent3D Image::extent(std::uint32_t mip) const {
+    return level_extent(description_.extent, mip);
+}
 
 Result<VkImageView> Image::view(const ImageView& asked, VkImageViewType type) const {
     ImageView part = asked;
     if (part.mips == all_remaining) part.mips = description_.mips - std::min(part.base_mip, description_.mips);
-    if (part.layers == all_remaining) part.layers = description_.layers - std::min(part.base_layer, description_.layers);
+    if (part.layers == all_remaining)
+        part.layers = description_.layers - std::min(part.base_layer, description_.layers);
     if (part.mips == 0 || part.layers == 0 || part.base_mip + part.mips > description_.mips ||
         part.base_layer + part.layers > description_.layers)
         return fail(place(description_), fmt::format("no mips {}+{} of layers {}+{}", part.base_mip, part.mips,
@@ -153,7 +159,9 @@ Result<VkImageView> Image::view(const ImageView& asked, VkImageViewType type) co
     return handle;
 }
 
-Image::~Image() { reset(); }
+Image::~Image() {
+    reset();
+}
 
 void Image::reset() {
     if (!handle_) return;
@@ -161,14 +169,18 @@ void Image::reset() {
                      allocation = allocation_, borrowed = borrowed_, views = std::move(views_)] {
         for (const CachedView& view : views) vkDestroyImageView(device, view.handle, nullptr);
         if (borrowed) return;
-        if (allocation) vmaDestroyImage(allocator, handle, allocation);
-        else vkDestroyImage(device, handle, nullptr);
+        if (allocation)
+            vmaDestroyImage(allocator, handle, allocation);
+        else
+            vkDestroyImage(device, handle, nullptr);
     });
     views_.clear();
     handle_ = VK_NULL_HANDLE;
 }
 
-Image::Image(Image&& other) noexcept { *this = std::move(other); }
+Image::Image(Image&& other) noexcept {
+    *this = std::move(other);
+}
 
 Image& Image::operator=(Image&& other) noexcept {
     if (this == &other) return *this;

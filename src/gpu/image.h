@@ -39,10 +39,12 @@ class Image {
 public:
     [[nodiscard]] static Result<Image> create(Device& device, const ImageDescription& description);
     /// In memory that somebody else owns; it must have been sized by memory_requirements().
-    [[nodiscard]] static Result<Image> create_in(Device& device, const ImageDescription& description, SharedMemory memory);
+    [[nodiscard]] static Result<Image> create_in(Device& device, const ImageDescription& description,
+                                                 SharedMemory memory);
     /// An image that somebody else owns (a swapchain's).
     [[nodiscard]] static Image borrow(Device& device, const ImageDescription& description, VkImage handle);
-    [[nodiscard]] static VkMemoryRequirements memory_requirements(const Device& device, const ImageDescription& description);
+    [[nodiscard]] static VkMemoryRequirements memory_requirements(const Device& device,
+                                                                  const ImageDescription& description);
     Image() = default;
     ~Image();
     Image(Image&& other) noexcept;
@@ -61,7 +63,8 @@ public:
     [[nodiscard]] ImageView layer(std::uint32_t index) const { return {this, 0, all_remaining, index, 1}; }
     /// The Vulkan view of a part, made on first use and kept. `type` VK_IMAGE_VIEW_TYPE_MAX_ENUM: the natural one
     /// for the shape and number of layers.
-    [[nodiscard]] Result<VkImageView> view(const ImageView& part, VkImageViewType type = VK_IMAGE_VIEW_TYPE_MAX_ENUM) const;
+    [[nodiscard]] Result<VkImageView> view(const ImageView& part,
+                                           VkImageViewType type = VK_IMAGE_VIEW_TYPE_MAX_ENUM) const;
 
     /// How commands recorded so far leave it (all its parts alike); kept by the frame graph, uploads and read-backs.
     [[nodiscard]] Access state() const { return state_; }

@@ -50,11 +50,16 @@ VkResult initialize_loader() {
 
 int rank(const DeviceInfo& device) {
     switch (device.type) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-        case VK_PHYSICAL_DEVICE_TYPE_CPU: return 3;
-        default: return 4;
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return 1;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return 2;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return 3;
+        default:
+            return 4;
     }
 }
 
@@ -65,7 +70,8 @@ std::string lower_case(std::string text) {
 
 std::string list_of(const std::vector<DeviceInfo>& devices) {
     std::string text;
-    for (const auto& device : devices) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", device.number, device.name);
+    for (const auto& device : devices)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", device.number, device.name);
     return text.empty() ? "there is none" : "there are: " + text;
 }
 
@@ -78,18 +84,21 @@ Result<std::shared_ptr<Instance>> Instance::create(const InstanceSettings& setti
     std::vector<std::string> available = instance_extensions(nullptr);
     std::vector<const char*> layers;
     if (settings.validation) {
-        if (!has_layer(validation_layer)) return fail("", fmt::format("the layer {} is not installed", validation_layer));
+        if (!has_layer(validation_layer))
+            return fail("", fmt::format("the layer {} is not installed", validation_layer));
         layers.push_back(validation_layer);
         for (auto& name : instance_extensions(validation_layer)) available.push_back(std::move(name));
     }
     std::vector<const char*> extensions;
     for (const auto& name : settings.extensions) {
-        if (!contains(available, name.c_str())) return fail("", fmt::format("the instance extension {} is missing", name));
+        if (!contains(available, name.c_str()))
+            return fail("", fmt::format("the instance extension {} is missing", name));
         extensions.push_back(name.c_str());
     }
     const bool debug_names = contains(available, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (debug_names) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    const bool features_extension = settings.validation && contains(available, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    const bool features_extension =
+        settings.validation && contains(available, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     if (features_extension) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
 
     std::shared_ptr<Instance> instance(new Instance());
@@ -166,7 +175,8 @@ Result<DeviceInfo> Instance::choose(const std::string& choice) const {
         for (const auto& device : all)
             if (device.usable && (!best || rank(device) < rank(*best))) best = &device;
         if (best) return *best;
-        if (!all.empty()) return fail("", fmt::format("no usable Vulkan device: {} lacks {}", all[0].name, all[0].missing));
+        if (!all.empty())
+            return fail("", fmt::format("no usable Vulkan device: {} lacks {}", all[0].name, all[0].missing));
         return fail("", "no Vulkan device: is a driver installed?");
     }
     int number = -1;
@@ -174,8 +184,8 @@ Result<DeviceInfo> Instance::choose(const std::string& choice) const {
     const bool is_number = parsed.ec == std::errc() && parsed.ptr == choice.data() + choice.size() && number >= 0 &&
                            number < static_cast<int>(all.size());
     for (const auto& device : all) {
-        const bool matches = is_number ? device.number == number
-                                       : lower_case(device.name).find(lower_case(choice)) != std::string::npos;
+        const bool matches =
+            is_number ? device.number == number : lower_case(device.name).find(lower_case(choice)) != std::string::npos;
         if (!matches) continue;
         if (!device.usable) return fail("", fmt::format("the Vulkan device {} lacks {}", device.name, device.missing));
         return device;

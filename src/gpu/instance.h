@@ -11,7 +11,7 @@
 namespace heliodon::gpu {
 
 struct InstanceSettings {
-    bool validation = false;              ///< the validation layer with synchronization checks; an error where it is absent
+    bool validation = false;  ///< the validation layer with synchronization checks; an error where it is absent
     std::vector<std::string> extensions;  ///< instance extensions that a window system requires; none when headless
 };
 

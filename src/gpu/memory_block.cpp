@@ -7,7 +7,8 @@
 
 namespace heliodon::gpu {
 
-Result<MemoryBlock> MemoryBlock::create(Device& device, const VkMemoryRequirements& requirements, const std::string& name) {
+Result<MemoryBlock> MemoryBlock::create(Device& device, const VkMemoryRequirements& requirements,
+                                        const std::string& name) {
     VmaAllocationCreateInfo info{};
     info.preferredFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     info.flags = VMA_ALLOCATION_CREATE_CAN_ALIAS_BIT;
@@ -22,7 +23,8 @@ Result<MemoryBlock> MemoryBlock::create(Device& device, const VkMemoryRequiremen
 
 MemoryBlock::~MemoryBlock() {
     if (!allocation_) return;
-    device_->retire([allocator = device_->allocator(), allocation = allocation_] { vmaFreeMemory(allocator, allocation); });
+    device_->retire(
+        [allocator = device_->allocator(), allocation = allocation_] { vmaFreeMemory(allocator, allocation); });
 }
 
 }  // namespace heliodon::gpu

@@ -20,7 +20,8 @@ struct SpecializationData {
 
     explicit SpecializationData(const Specialization& specialization) {
         for (const auto& [id, value] : specialization) {
-            entries.push_back({id, static_cast<std::uint32_t>(values.size() * sizeof(std::uint32_t)), sizeof(std::uint32_t)});
+            entries.push_back(
+                {id, static_cast<std::uint32_t>(values.size() * sizeof(std::uint32_t)), sizeof(std::uint32_t)});
             values.push_back(value);
         }
         info.mapEntryCount = static_cast<std::uint32_t>(entries.size());
@@ -66,8 +67,8 @@ VkPipelineShaderStageCreateInfo stage_info(const Shader& shader, const Module& m
 
 VkPipelineColorBlendAttachmentState blend_state(Blend blend) {
     VkPipelineColorBlendAttachmentState state{};
-    state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                           VK_COLOR_COMPONENT_A_BIT;
+    state.colorWriteMask =
+        VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     state.blendEnable = blend != Blend::none;
     state.srcColorBlendFactor = blend == Blend::alpha ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
     state.dstColorBlendFactor = blend == Blend::additive ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
@@ -107,7 +108,8 @@ private:
     void set_input(const GraphicsDescription& description) {
         vertex_input_.vertexBindingDescriptionCount = static_cast<std::uint32_t>(description.vertex_buffers.size());
         vertex_input_.pVertexBindingDescriptions = description.vertex_buffers.data();
-        vertex_input_.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(description.vertex_attributes.size());
+        vertex_input_.vertexAttributeDescriptionCount =
+            static_cast<std::uint32_t>(description.vertex_attributes.size());
         vertex_input_.pVertexAttributeDescriptions = description.vertex_attributes.data();
         assembly_.topology = description.topology;
         viewport_.viewportCount = viewport_.scissorCount = 1;
@@ -132,7 +134,8 @@ private:
 
     void set_output(const GraphicsDescription& description) {
         for (std::size_t index = 0; index < description.color_formats.size(); ++index)
-            attachments_.push_back(blend_state(index < description.blend.size() ? description.blend[index] : Blend::none));
+            attachments_.push_back(
+                blend_state(index < description.blend.size() ? description.blend[index] : Blend::none));
         blend_.attachmentCount = static_cast<std::uint32_t>(attachments_.size());
         blend_.pAttachments = attachments_.data();
         rendering_.viewMask = description.view_mask;
@@ -184,8 +187,8 @@ Result<PipelineLayout> PipelineLayout::create(Device& device, const std::string&
             }
             if (binding.set != 0 || binding.count == 0)
                 return fail(where, fmt::format("'{}' is in set {}: passes have set 0 (arrays of known length) and the "
-                                               "bindless textures set {}", binding.name, binding.set,
-                                               BindlessTextures::set_index));
+                                               "bindless textures set {}",
+                                               binding.name, binding.set, BindlessTextures::set_index));
             if (auto merged = merge(layout.bindings_, binding, where); !merged) return tl::unexpected(merged.error());
         }
         if (reflection.push_constant_bytes > 0) {
@@ -210,8 +213,7 @@ Result<void> PipelineLayout::create_handles(const std::string& name) {
     }
     // Vulkan 1.3, table "required limits": a device with push descriptors takes at least 32 of them.
     constexpr std::uint32_t most_push_descriptors = 32;
-    push_descriptors_ =
-        device_->functions().push_descriptor_set && descriptor_count_ <= most_push_descriptors;
+    push_descriptors_ = device_->functions().push_descriptor_set && descriptor_count_ <= most_push_descriptors;
 
     VkDescriptorSetLayoutCreateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     set_info.flags = push_descriptors_ ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
@@ -242,7 +244,9 @@ PipelineLayout::~PipelineLayout() {
     });
 }
 
-PipelineLayout::PipelineLayout(PipelineLayout&& other) noexcept { *this = std::move(other); }
+PipelineLayout::PipelineLayout(PipelineLayout&& other) noexcept {
+    *this = std::move(other);
+}
 
 PipelineLayout& PipelineLayout::operator=(PipelineLayout&& other) noexcept {
     std::swap(device_, other.device_);
@@ -262,7 +266,9 @@ Pipeline::~Pipeline() {
     device_->retire([device = device_->handle(), handle = handle_] { vkDestroyPipeline(device, handle, nullptr); });
 }
 
-Pipeline::Pipeline(Pipeline&& other) noexcept { *this = std::move(other); }
+Pipeline::Pipeline(Pipeline&& other) noexcept {
+    *this = std::move(other);
+}
 
 Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
     std::swap(device_, other.device_);

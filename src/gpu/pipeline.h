@@ -91,7 +91,7 @@ enum class Blend {
 /// (as seen in a y-up clip space, i.e. with the flipped viewport that Commands::begin_rendering sets), depth tested
 /// and written when there is a depth format.
 struct GraphicsDescription {
-    std::string name;  ///< unique among the pipelines of one Pipelines
+    std::string name;                        ///< unique among the pipelines of one Pipelines
     std::string vertex, fragment, geometry;  ///< shader names; `fragment` and `geometry` may be empty
     Specialization specialization;           ///< of all stages
     std::vector<VkFormat> color_formats;
@@ -124,7 +124,8 @@ public:
     Pipelines(Device& device, ShaderLibrary shaders);
 
     /// `name` is a shader's ("passes/shade/shade.comp").
-    [[nodiscard]] Result<const ComputePipeline*> compute(const std::string& name, const Specialization& specialization = {});
+    [[nodiscard]] Result<const ComputePipeline*> compute(const std::string& name,
+                                                         const Specialization& specialization = {});
     [[nodiscard]] Result<const GraphicsPipeline*> graphics(const GraphicsDescription& description);
     /// Compiles changed shaders and remakes their pipelines; on an error the old ones stay in use.
     [[nodiscard]] ShaderReload reload();

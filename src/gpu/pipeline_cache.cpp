@@ -32,7 +32,8 @@ std::uint64_t hash_of(std::span<const char> bytes) {
 std::string file_name(const VkPhysicalDeviceProperties& properties) {
     std::string name;
     for (const std::uint8_t byte : properties.pipelineCacheUUID) name += fmt::format("{:02x}", byte);
-    return name + fmt::format("-{:x}-{:x}-{:x}.bin", properties.vendorID, properties.deviceID, properties.driverVersion);
+    return name +
+           fmt::format("-{:x}-{:x}-{:x}.bin", properties.vendorID, properties.deviceID, properties.driverVersion);
 }
 
 std::vector<char> load(const std::filesystem::path& file) {
@@ -46,15 +47,18 @@ std::vector<char> load(const std::filesystem::path& file) {
         header.bytes != size - sizeof(header))
         return {};
     std::vector<char> bytes(header.bytes);
-    if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || hash_of(bytes) != header.hash) return {};
+    if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || hash_of(bytes) != header.hash)
+        return {};
     return bytes;
 }
 
 }  // namespace
 
 std::filesystem::path default_cache_directory() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return std::filesystem::path(cache) / "heliodon";
-    if (const char* home = std::getenv("HOME"); home && *home) return std::filesystem::path(home) / ".cache" / "heliodon";
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+        return std::filesystem::path(cache) / "heliodon";
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return std::filesystem::path(home) / ".cache" / "heliodon";
     return {};
 }
 
@@ -82,7 +86,8 @@ PipelineCache::~PipelineCache() {
 
 void PipelineCache::save() const noexcept try {
     std::size_t size = 0;
-    if (!handle_ || file_.empty() || vkGetPipelineCacheData(device_.handle(), handle_, &size, nullptr) != VK_SUCCESS) return;
+    if (!handle_ || file_.empty() || vkGetPipelineCacheData(device_.handle(), handle_, &size, nullptr) != VK_SUCCESS)
+        return;
     if (size == loaded_bytes_) return;  // nothing new
     std::vector<char> bytes(size);
     if (vkGetPipelineCacheData(device_.handle(), handle_, &size, bytes.data()) != VK_SUCCESS) return;

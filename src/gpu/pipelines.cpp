@@ -43,19 +43,25 @@ Result<const GraphicsPipeline*> Pipelines::graphics(const GraphicsDescription& d
 
 ShaderReload Pipelines::reload() {
     ShaderReload reload = shaders_.reload();
-    const auto changed = [&](const std::string& name) { return std::ranges::find(reload.changed, name) != reload.changed.end(); };
+    const auto changed = [&](const std::string& name) {
+        return std::ranges::find(reload.changed, name) != reload.changed.end();
+    };
     for (const auto& compute : compute_) {
         if (!changed(compute->shader)) continue;
         auto made = make(compute->shader, compute->specialization);
-        if (made) compute->pipeline = std::move(*made);
-        else reload.errors.push_back(made.error());
+        if (made)
+            compute->pipeline = std::move(*made);
+        else
+            reload.errors.push_back(made.error());
     }
     for (const auto& graphics : graphics_) {
         const GraphicsDescription& d = graphics->description;
         if (!changed(d.vertex) && !changed(d.fragment) && !changed(d.geometry)) continue;
         auto made = make(d);
-        if (made) graphics->pipeline = std::move(*made);
-        else reload.errors.push_back(made.error());
+        if (made)
+            graphics->pipeline = std::move(*made);
+        else
+            reload.errors.push_back(made.error());
     }
     return reload;
 }

@@ -43,7 +43,8 @@ Result<std::vector<std::byte>> Device::read_back(const Image& image, std::uint32
     if (mip >= image.mips() || layer >= image.layers()) return fail(where, "the image has no such part");
     const VkDeviceSize size = level_bytes(image.format(), image.description().extent, mip);
     if (size == 0) return fail(where, "read-back does not know this format");
-    if (image.description().samples != VK_SAMPLE_COUNT_1_BIT) return fail(where, "a multisampled image cannot be read back");
+    if (image.description().samples != VK_SAMPLE_COUNT_1_BIT)
+        return fail(where, "a multisampled image cannot be read back");
     // Pending uploads set the state when they were asked for, so it is known whether anything was written.
     const Access state = image.state();
     if (state.layout == VK_IMAGE_LAYOUT_UNDEFINED) return fail(where, "it was never written");

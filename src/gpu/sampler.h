@@ -13,8 +13,8 @@ struct SamplerDescription {
     VkSamplerAddressMode address_u = VK_SAMPLER_ADDRESS_MODE_REPEAT;
     VkSamplerAddressMode address_v = VK_SAMPLER_ADDRESS_MODE_REPEAT;
     VkSamplerAddressMode address_w = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    float max_anisotropy = 1.0f;                          ///< clamped to what the device has
-    bool compare = false;                                 ///< a shadow sampler
+    float max_anisotropy = 1.0f;                           ///< clamped to what the device has
+    bool compare = false;                                  ///< a shadow sampler
     VkCompareOp compare_op = VK_COMPARE_OP_LESS_OR_EQUAL;  ///< with `compare`
     VkBorderColor border = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
     VkSamplerReductionMode reduction = VK_SAMPLER_REDUCTION_MODE_WEIGHTED_AVERAGE;  ///< min and max where supported

@@ -25,7 +25,7 @@ struct ShaderBinding {
     std::string name;
     std::uint32_t set = 0, binding = 0;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;
-    std::uint32_t count = 1;  ///< array length; 0: of run-time length
+    std::uint32_t count = 1;                                  ///< array length; 0: of run-time length
     VkImageViewType view_type = VK_IMAGE_VIEW_TYPE_MAX_ENUM;  ///< images only
     VkShaderStageFlags stages = 0;
 };
@@ -35,7 +35,7 @@ struct ShaderReflection {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
     std::vector<ShaderBinding> bindings;  ///< by set, then binding
     std::uint32_t push_constant_bytes = 0;
-    std::array<std::uint32_t, 3> workgroup_size{1, 1, 1};  ///< compute; with the default specialization
+    std::array<std::uint32_t, 3> workgroup_size{1, 1, 1};             ///< compute; with the default specialization
     std::array<std::uint32_t, 3> workgroup_constants{~0u, ~0u, ~0u};  ///< constant_id of each side, or none
 };
 [[nodiscard]] Result<ShaderReflection> reflect(const std::string& name, std::span<const std::uint32_t> code);
@@ -51,9 +51,9 @@ struct Shader {
 
 /// Compiles GLSL for Vulkan 1.3; #include finds files below `include_directory` or beside the includer, and
 /// `dependencies` receives them. Errors carry file:line of the first message and all messages as text.
-[[nodiscard]] Result<std::vector<std::uint32_t>> compile_glsl(const std::filesystem::path& file,
-                                                              const std::filesystem::path& include_directory,
-                                                              std::vector<std::filesystem::path>* dependencies = nullptr);
+[[nodiscard]] Result<std::vector<std::uint32_t>> compile_glsl(
+    const std::filesystem::path& file, const std::filesystem::path& include_directory,
+    std::vector<std::filesystem::path>* dependencies = nullptr);
 
 struct ShaderReload {
     std::vector<std::string> changed;  ///< names whose code is new

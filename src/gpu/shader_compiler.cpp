@@ -33,7 +33,8 @@ constexpr std::array stages = {
 
 Result<Stage> find_stage(const std::string& name) {
     const auto found = std::ranges::find_if(stages, [&](const Stage& stage) { return name.ends_with(stage.ending); });
-    if (found == stages.end()) return fail(name, "expected a name ending in .comp, .vert, .frag, .geom, .tesc or .tese");
+    if (found == stages.end())
+        return fail(name, "expected a name ending in .comp, .vert, .frag, .geom, .tesc or .tese");
     return *found;
 }
 
@@ -55,7 +56,9 @@ public:
     IncludeResult* includeLocal(const char* header, const char* includer, std::size_t) override {
         return open(std::filesystem::path(includer).parent_path() / header);
     }
-    IncludeResult* includeSystem(const char* header, const char*, std::size_t) override { return open(directory_ / header); }
+    IncludeResult* includeSystem(const char* header, const char*, std::size_t) override {
+        return open(directory_ / header);
+    }
     void releaseInclude(IncludeResult*) override {}  // kept until the compilation is over
 
 private:
@@ -69,8 +72,8 @@ private:
         if (found_) found_->push_back(path);
         auto file = std::make_unique<File>();
         file->text = std::move(*text);
-        file->result =
-            std::make_unique<IncludeResult>(path.lexically_normal().string(), file->text.data(), file->text.size(), nullptr);
+        file->result = std::make_unique<IncludeResult>(path.lexically_normal().string(), file->text.data(),
+                                                       file->text.size(), nullptr);
         files_.push_back(std::move(file));
         return files_.back()->result.get();
     }

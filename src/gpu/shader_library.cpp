@@ -51,8 +51,9 @@ Result<ShaderLibrary::Loaded> ShaderLibrary::load(const std::string& name) const
     }
     const auto found = embedded_.find(name);
     if (found == embedded_.end())
-        return fail(name, directory_.empty() ? "there is no such shader"
-                                             : fmt::format("there is no such shader, built in or in {}", directory_.string()));
+        return fail(name, directory_.empty()
+                              ? "there is no such shader"
+                              : fmt::format("there is no such shader, built in or in {}", directory_.string()));
     auto shader = make_shader(name, {found->second.begin(), found->second.end()});
     if (!shader) return tl::unexpected(shader.error());
     loaded.shader = std::move(*shader);

@@ -16,23 +16,34 @@ using Context = std::unique_ptr<spvc_context_s, ContextDeleter>;
 
 Result<VkShaderStageFlagBits> stage_from(const std::string& name, SpvExecutionModel model) {
     switch (model) {
-        case SpvExecutionModelVertex: return VK_SHADER_STAGE_VERTEX_BIT;
-        case SpvExecutionModelTessellationControl: return VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT;
-        case SpvExecutionModelTessellationEvaluation: return VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT;
-        case SpvExecutionModelGeometry: return VK_SHADER_STAGE_GEOMETRY_BIT;
-        case SpvExecutionModelFragment: return VK_SHADER_STAGE_FRAGMENT_BIT;
-        case SpvExecutionModelGLCompute: return VK_SHADER_STAGE_COMPUTE_BIT;
-        default: return fail(name, "expected a vertex, tessellation, geometry, fragment or compute shader");
+        case SpvExecutionModelVertex:
+            return VK_SHADER_STAGE_VERTEX_BIT;
+        case SpvExecutionModelTessellationControl:
+            return VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT;
+        case SpvExecutionModelTessellationEvaluation:
+            return VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT;
+        case SpvExecutionModelGeometry:
+            return VK_SHADER_STAGE_GEOMETRY_BIT;
+        case SpvExecutionModelFragment:
+            return VK_SHADER_STAGE_FRAGMENT_BIT;
+        case SpvExecutionModelGLCompute:
+            return VK_SHADER_STAGE_COMPUTE_BIT;
+        default:
+            return fail(name, "expected a vertex, tessellation, geometry, fragment or compute shader");
     }
 }
 
 VkImageViewType view_type_of(spvc_type type) {
     const bool arrayed = spvc_type_get_image_arrayed(type);
     switch (spvc_type_get_image_dimension(type)) {
-        case SpvDim1D: return arrayed ? VK_IMAGE_VIEW_TYPE_1D_ARRAY : VK_IMAGE_VIEW_TYPE_1D;
-        case SpvDim3D: return VK_IMAGE_VIEW_TYPE_3D;
-        case SpvDimCube: return arrayed ? VK_IMAGE_VIEW_TYPE_CUBE_ARRAY : VK_IMAGE_VIEW_TYPE_CUBE;
-        default: return arrayed ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+        case SpvDim1D:
+            return arrayed ? VK_IMAGE_VIEW_TYPE_1D_ARRAY : VK_IMAGE_VIEW_TYPE_1D;
+        case SpvDim3D:
+            return VK_IMAGE_VIEW_TYPE_3D;
+        case SpvDimCube:
+            return arrayed ? VK_IMAGE_VIEW_TYPE_CUBE_ARRAY : VK_IMAGE_VIEW_TYPE_CUBE;
+        default:
+            return arrayed ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
     }
 }
 
@@ -73,7 +84,8 @@ std::uint32_t push_constant_bytes(spvc_compiler compiler, spvc_resources resourc
     spvc_resources_get_resource_list_for_type(resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT, &list, &count);
     std::size_t size = 0;
     if (count > 0)
-        spvc_compiler_get_declared_struct_size(compiler, spvc_compiler_get_type_handle(compiler, list[0].base_type_id), &size);
+        spvc_compiler_get_declared_struct_size(compiler, spvc_compiler_get_type_handle(compiler, list[0].base_type_id),
+                                               &size);
     return static_cast<std::uint32_t>(size);
 }
 
@@ -96,7 +108,9 @@ Result<ShaderReflection> reflect(const std::string& name, std::span<const std::u
     spvc_context raw = nullptr;
     if (spvc_context_create(&raw) != SPVC_SUCCESS) return fail(name, "out of memory for shader reflection");
     const Context context(raw);
-    const auto failure = [&] { return fail(name, fmt::format("cannot read the SPIR-V: {}", spvc_context_get_last_error_string(raw))); };
+    const auto failure = [&] {
+        return fail(name, fmt::format("cannot read the SPIR-V: {}", spvc_context_get_last_error_string(raw)));
+    };
     spvc_parsed_ir parsed = nullptr;
     spvc_compiler compiler = nullptr;
     spvc_resources resources = nullptr;
@@ -113,7 +127,8 @@ Result<ShaderReflection> reflect(const std::string& name, std::span<const std::u
     for (const Kind& kind : kinds) {
         const spvc_reflected_resource* list = nullptr;
         std::size_t count = 0;
-        if (spvc_resources_get_resource_list_for_type(resources, kind.resources, &list, &count) != SPVC_SUCCESS) return failure();
+        if (spvc_resources_get_resource_list_for_type(resources, kind.resources, &list, &count) != SPVC_SUCCESS)
+            return failure();
         for (std::size_t index = 0; index < count; ++index)
             reflection.bindings.push_back(binding_of(compiler, list[index], kind, reflection.stage));
     }

@@ -25,7 +25,8 @@ Function surface_function(const Device& device, const char* name) {
 
 /// UNORM, so that the shaders' own sRGB encoding is shown as it is.
 Result<VkSurfaceFormatKHR> choose_format(const Device& device, VkSurfaceKHR surface) {
-    const auto get = surface_function<PFN_vkGetPhysicalDeviceSurfaceFormatsKHR>(device, "vkGetPhysicalDeviceSurfaceFormatsKHR");
+    const auto get =
+        surface_function<PFN_vkGetPhysicalDeviceSurfaceFormatsKHR>(device, "vkGetPhysicalDeviceSurfaceFormatsKHR");
     std::uint32_t count = 0;
     get(device.physical_device(), surface, &count, nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
@@ -90,7 +91,8 @@ Result<void> Swapchain::build(VkExtent2D extent) {
     if (!format) return tl::unexpected(format.error());
     format_ = format->format;
     constexpr VkImageUsageFlags needed = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    if ((surface.supportedUsageFlags & needed) != needed) return fail("window", "its images cannot be drawn and copied to");
+    if ((surface.supportedUsageFlags & needed) != needed)
+        return fail("window", "its images cannot be drawn and copied to");
     // One more than needed: the GPU draws one while the others wait or are shown.
     std::uint32_t count = surface.minImageCount + 1;
     if (surface.maxImageCount > 0) count = std::min(count, surface.maxImageCount);
@@ -111,7 +113,8 @@ Result<void> Swapchain::build(VkExtent2D extent) {
     info.clipped = VK_TRUE;
     info.oldSwapchain = old;
     VkSwapchainKHR created = VK_NULL_HANDLE;
-    result = entry_point<PFN_vkCreateSwapchainKHR>(*device_, "vkCreateSwapchainKHR")(device_->handle(), &info, nullptr, &created);
+    result = entry_point<PFN_vkCreateSwapchainKHR>(*device_, "vkCreateSwapchainKHR")(device_->handle(), &info, nullptr,
+                                                                                     &created);
     if (result != VK_SUCCESS) return vulkan_failure("window", "cannot create the swapchain", result);
     reset();
     handle_ = created;
@@ -148,9 +151,11 @@ Result<std::optional<Swapchain::Frame>> Swapchain::acquire() {
     if (auto waited = device_->wait(uses_[next_]); !waited) return tl::unexpected(waited.error());
     std::uint32_t index = 0;
     const VkResult result = entry_point<PFN_vkAcquireNextImageKHR>(*device_, "vkAcquireNextImageKHR")(
-        device_->handle(), handle_, std::numeric_limits<std::uint64_t>::max(), acquired_[next_], VK_NULL_HANDLE, &index);
+        device_->handle(), handle_, std::numeric_limits<std::uint64_t>::max(), acquired_[next_], VK_NULL_HANDLE,
+        &index);
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::optional<Frame>{};
-    if (result != VK_SUCCESS && result != VK_SUBOPTIMAL_KHR) return vulkan_failure("window", "cannot acquire an image", result);
+    if (result != VK_SUCCESS && result != VK_SUBOPTIMAL_KHR)
+        return vulkan_failure("window", "cannot acquire an image", result);
     // The semaphore is waited for in all stages; the old picture is not kept.
     images_[index].set_state({VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED});
     return std::optional<Frame>(Frame{&images_[index], acquired_[next_], finished_[index], index});
@@ -164,8 +169,7 @@ Result<bool> Swapchain::present(const Frame& frame) {
     info.swapchainCount = 1;
     info.pSwapchains = &handle_;
     info.pImageIndices = &frame.index;
-    const VkResult result =
-        entry_point<PFN_vkQueuePresentKHR>(*device_, "vkQueuePresentKHR")(device_->queue(), &info);
+    const VkResult result = entry_point<PFN_vkQueuePresentKHR>(*device_, "vkQueuePresentKHR")(device_->queue(), &info);
     if (result == VK_SUCCESS) return true;
     if (result == VK_SUBOPTIMAL_KHR || result == VK_ERROR_OUT_OF_DATE_KHR) return false;
     return vulkan_failure("window", "cannot present", result);
@@ -194,9 +198,13 @@ void Swapchain::reset() {
     next_ = 0;
 }
 
-Swapchain::~Swapchain() { reset(); }
+Swapchain::~Swapchain() {
+    reset();
+}
 
-Swapchain::Swapchain(Swapchain&& other) noexcept { *this = std::move(other); }
+Swapchain::Swapchain(Swapchain&& other) noexcept {
+    *this = std::move(other);
+}
 
 Swapchain& Swapchain::operator=(Swapchain&& other) noexcept {
     std::swap(device_, other.device_);

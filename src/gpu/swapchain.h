@@ -16,7 +16,7 @@ class Swapchain {
 public:
     /// One of these is being drawn to and will be shown.
     struct Frame {
-        const Image* image = nullptr;          ///< in UNDEFINED layout; leave it in PRESENT_SRC_KHR
+        const Image* image = nullptr;           ///< in UNDEFINED layout; leave it in PRESENT_SRC_KHR
         VkSemaphore acquired = VK_NULL_HANDLE;  ///< the submission waits for it …
         VkSemaphore finished = VK_NULL_HANDLE;  ///< … and signals this
         std::uint32_t index = 0;
@@ -24,7 +24,8 @@ public:
 
     /// `extent` is used where the surface has no size of its own. 8-bit sRGB-encoded values are written by shaders
     /// (UNORM formats are chosen); vsync: FIFO, else mailbox or immediate where offered.
-    [[nodiscard]] static Result<Swapchain> create(Device& device, VkSurfaceKHR surface, VkExtent2D extent, bool vsync = true);
+    [[nodiscard]] static Result<Swapchain> create(Device& device, VkSurfaceKHR surface, VkExtent2D extent,
+                                                  bool vsync = true);
     Swapchain() = default;
     ~Swapchain();
     Swapchain(Swapchain&& other) noexcept;
@@ -32,7 +33,8 @@ public:
 
     /// The next image; empty when the window is minimized or was resized: then call resize().
     [[nodiscard]] Result<std::optional<Frame>> acquire();
-    /// After the submission that waits for `frame.acquired` and signals `frame.finished`, before any other one. False: the window was resized, call resize().
+    /// After the submission that waits for `frame.acquired` and signals `frame.finished`, before any other one. False:
+    /// the window was resized, call resize().
     [[nodiscard]] Result<bool> present(const Frame& frame);
     [[nodiscard]] Result<void> resize(VkExtent2D extent);
     [[nodiscard]] VkExtent2D extent() const { return extent_; }

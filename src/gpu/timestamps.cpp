@@ -28,7 +28,9 @@ Result<Timestamps> Timestamps::create(Device& device, std::uint32_t scopes) {
     return timestamps;
 }
 
-Timestamps::~Timestamps() { reset(); }
+Timestamps::~Timestamps() {
+    reset();
+}
 
 void Timestamps::reset() {
     for (Frame& frame : frames_)
@@ -36,7 +38,9 @@ void Timestamps::reset() {
     frames_.clear();
 }
 
-Timestamps::Timestamps(Timestamps&& other) noexcept { *this = std::move(other); }
+Timestamps::Timestamps(Timestamps&& other) noexcept {
+    *this = std::move(other);
+}
 
 Timestamps& Timestamps::operator=(Timestamps&& other) noexcept {
     std::swap(device_, other.device_);
@@ -121,7 +125,8 @@ Result<FrameTimes> Timestamps::wait() {
     if (frame == frames_.end()) return fail("timestamps", "no frame was recorded");
     if (!frame->pending) return latest_;
     if (auto waited = device_->wait(device_->submitted()); !waited) return tl::unexpected(waited.error());
-    if (!read(*frame, 0)) return fail("timestamps", "the frame recorded last was not submitted, or a scope was not ended");
+    if (!read(*frame, 0))
+        return fail("timestamps", "the frame recorded last was not submitted, or a scope was not ended");
     return latest_;
 }
 

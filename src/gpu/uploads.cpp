@@ -15,7 +15,8 @@ constexpr VkDeviceSize block_bytes = VkDeviceSize{16} << 20;
 constexpr VkDeviceSize alignment = 16;
 
 constexpr Access everything_before{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                   VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
+                                   VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                   VK_IMAGE_LAYOUT_UNDEFINED};
 constexpr Access copied{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
 constexpr Access readable{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT,
@@ -71,8 +72,8 @@ Result<VkDeviceSize> Uploads::reserve(VkDeviceSize bytes) {
 Result<void> Uploads::add(const Buffer& buffer, std::span<const std::byte> bytes, VkDeviceSize offset) {
     if (offset + bytes.size() > buffer.size())
         return fail(fmt::format("buffer '{}'", buffer.name()),
-                    fmt::format("expected at most {} bytes to upload at {}, found {}", buffer.size() - std::min(offset, buffer.size()),
-                                offset, bytes.size()));
+                    fmt::format("expected at most {} bytes to upload at {}, found {}",
+                                buffer.size() - std::min(offset, buffer.size()), offset, bytes.size()));
     while (!bytes.empty()) {
         const std::size_t size = std::min<std::size_t>(bytes.size(), block_bytes);
         auto staged = reserve(size);
@@ -95,7 +96,8 @@ Result<void> Uploads::add(const Buffer& buffer, std::span<const std::byte> bytes
     return {};
 }
 
-Result<void> Uploads::add(const Image& image, std::span<const std::byte> bytes, std::uint32_t mip, std::uint32_t layer) {
+Result<void> Uploads::add(const Image& image, std::span<const std::byte> bytes, std::uint32_t mip,
+                          std::uint32_t layer) {
     const std::string where = fmt::format("image '{}', mip {}, layer {}", image.name(), mip, layer);
     if (mip >= image.mips() || layer >= image.layers()) return fail(where, "the image has no such part");
     const VkDeviceSize expected = level_bytes(image.format(), image.description().extent, mip);
@@ -123,7 +125,8 @@ Result<void> Uploads::add(const Image& image, std::span<const std::byte> bytes, 
             VkBufferImageCopy region{};
             region.bufferOffset = *staged;
             region.imageSubresource = {format.aspect, mip, layer, 1};
-            region.imageOffset = {0, static_cast<std::int32_t>(row * format.block_extent), static_cast<std::int32_t>(slice)};
+            region.imageOffset = {0, static_cast<std::int32_t>(row * format.block_extent),
+                                  static_cast<std::int32_t>(slice)};
             region.imageExtent = {extent.width,
                                   std::min(rows * format.block_extent, extent.height - row * format.block_extent), 1};
             vkCmdCopyBufferToImage(commands_->handle(), staging.handle(), image.handle(),

@@ -33,8 +33,9 @@ gpu::Access access_of_use(const PositionedUse& user, bool is_image) {
 
 /// What an access leaves to be waited for: its stages, and its writes to be made available.
 gpu::Access source_of(const Phase& phase) {
-    constexpr VkAccessFlags2 write_bits = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-                                          VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    constexpr VkAccessFlags2 write_bits =
+        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
     return {phase.access.stages, phase.access.access & write_bits, phase.access.layout};
 }
 
@@ -43,7 +44,8 @@ bool touches(const ResourceUse& use, std::uint32_t mip, std::uint32_t layer) {
            layer < use.base_layer + use.layers;
 }
 
-std::vector<Phase> phases_of(const std::vector<PositionedUse>& uses, bool is_image, std::uint32_t mip, std::uint32_t layer) {
+std::vector<Phase> phases_of(const std::vector<PositionedUse>& uses, bool is_image, std::uint32_t mip,
+                             std::uint32_t layer) {
     std::vector<Phase> phases;
     for (const PositionedUse& user : uses) {
         if (!touches(*user.use, mip, layer)) continue;
@@ -75,8 +77,10 @@ std::vector<PartBarrier> join(const std::vector<PartBarrier>& parts) {
             return alike(known, part) && known.barrier.base_layer == part.barrier.base_layer &&
                    known.barrier.base_mip + known.barrier.mips == part.barrier.base_mip;
         });
-        if (run != joined.end()) ++run->barrier.mips;
-        else joined.push_back(part);
+        if (run != joined.end())
+            ++run->barrier.mips;
+        else
+            joined.push_back(part);
     }
     std::vector<PartBarrier> rectangles;
     for (const PartBarrier& run : joined) {
@@ -85,8 +89,10 @@ std::vector<PartBarrier> join(const std::vector<PartBarrier>& parts) {
                    known.barrier.mips == run.barrier.mips &&
                    known.barrier.base_layer + known.barrier.layers == run.barrier.base_layer;
         });
-        if (above != rectangles.end()) ++above->barrier.layers;
-        else rectangles.push_back(run);
+        if (above != rectangles.end())
+            ++above->barrier.layers;
+        else
+            rectangles.push_back(run);
     }
     return rectangles;
 }
@@ -101,7 +107,8 @@ gpu::Access users_of_memory(const CompiledGraph& compiled, const std::vector<std
     for (const Placement& other : compiled.placements) {
         if (!share_memory(*own, other)) continue;
         for (const PositionedUse& user : uses[other.resource]) {
-            const gpu::Access access = source_of({0, access_of_use(user, compiled.resources[other.resource].is_image), true});
+            const gpu::Access access =
+                source_of({0, access_of_use(user, compiled.resources[other.resource].is_image), true});
             all.stages |= access.stages;
             all.access |= access.access;
         }
@@ -136,7 +143,8 @@ private:
         for (std::uint32_t layer = 0; layer < resource.layers(); ++layer) {
             for (std::uint32_t mip = 0; mip < resource.mips(); ++mip) {
                 const auto add = [&](std::uint32_t position, gpu::Access before, gpu::Access after, bool first) {
-                    parts.push_back({position, {index, before, after, first && transient, first && !transient, mip, 1, layer, 1}});
+                    parts.push_back(
+                        {position, {index, before, after, first && transient, first && !transient, mip, 1, layer, 1}});
                 };
                 const std::vector<Phase> phases = phases_of(uses_[index], resource.is_image, mip, layer);
                 gpu::Access before = transient ? memory_users : resource.initial;
@@ -152,8 +160,10 @@ private:
             }
         }
         for (const PartBarrier& part : join(parts)) {
-            if (part.position == end) compiled_.final_barriers.push_back(part.barrier);
-            else compiled_.order[part.position].barriers.push_back(part.barrier);
+            if (part.position == end)
+                compiled_.final_barriers.push_back(part.barrier);
+            else
+                compiled_.order[part.position].barriers.push_back(part.barrier);
         }
         if (outlives) compiled_.final_states.push_back({index, final_state});
     }
@@ -162,7 +172,8 @@ private:
     [[nodiscard]] gpu::Access final_state_of(std::uint32_t index) const {
         const Resource& resource = compiled_.resources[index];
         if (resource.final_usage) {
-            gpu::Access access = access_of(*resource.final_usage, PassKind::transfer, true, usage_writes(*resource.final_usage));
+            gpu::Access access =
+                access_of(*resource.final_usage, PassKind::transfer, true, usage_writes(*resource.final_usage));
             if (!resource.is_image) access.layout = VK_IMAGE_LAYOUT_UNDEFINED;
             return access;
         }
@@ -180,6 +191,8 @@ private:
 
 }  // namespace
 
-void place_barriers(CompiledGraph& compiled) { BarrierPlacer(compiled).place(); }
+void place_barriers(CompiledGraph& compiled) {
+    BarrierPlacer(compiled).place();
+}
 
 }  // namespace heliodon::graph

@@ -9,7 +9,7 @@
 namespace heliodon::graph {
 
 struct PassOrder {
-    std::vector<std::uint32_t> order;   // live passes, first to last
+    std::vector<std::uint32_t> order;  // live passes, first to last
     std::vector<std::uint32_t> culled;
 };
 /// Which passes run, and in which order.

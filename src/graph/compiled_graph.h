@@ -14,8 +14,9 @@ namespace heliodon::graph {
 struct Barrier {
     std::uint32_t resource = 0;
     gpu::Access before, after;
-    bool discard = false;   ///< the old content is not kept (layout UNDEFINED)
-    bool external = false;  ///< first use of an imported or persistent resource: Executor puts its real state in `before`
+    bool discard = false;  ///< the old content is not kept (layout UNDEFINED)
+    bool external =
+        false;  ///< first use of an imported or persistent resource: Executor puts its real state in `before`
     std::uint32_t base_mip = 0, mips = 1, base_layer = 0, layers = 1;
 
     friend bool operator==(const Barrier&, const Barrier&) = default;
@@ -47,14 +48,14 @@ struct Heap {
 /// A Graph made ready: plain data, the same for every frame.
 struct CompiledGraph {
     std::vector<CompiledPass> order;
-    std::vector<std::uint32_t> culled;      ///< passes whose outputs nobody uses
-    std::vector<Barrier> final_barriers;    ///< bring imported and persistent resources to one state for all their parts
-    std::vector<FinalState> final_states;   ///< how the frame leaves them
-    std::vector<Placement> placements;      ///< of transient resources that live passes use
+    std::vector<std::uint32_t> culled;     ///< passes whose outputs nobody uses
+    std::vector<Barrier> final_barriers;   ///< bring imported and persistent resources to one state for all their parts
+    std::vector<FinalState> final_states;  ///< how the frame leaves them
+    std::vector<Placement> placements;     ///< of transient resources that live passes use
     std::vector<Heap> heaps;
-    std::vector<Resource> resources;        ///< with the usage flags their uses need
-    std::vector<PassDeclaration> passes;    ///< as declared
-    VkDeviceSize unaliased_bytes = 0;       ///< what the placed resources would take without sharing
+    std::vector<Resource> resources;      ///< with the usage flags their uses need
+    std::vector<PassDeclaration> passes;  ///< as declared
+    VkDeviceSize unaliased_bytes = 0;     ///< what the placed resources would take without sharing
 
     /// One line a pass, with its barriers, then the placements.
     [[nodiscard]] std::string text() const;

@@ -43,8 +43,8 @@ VkImageMemoryBarrier2 image_barrier(const gpu::Image& image, const Barrier& barr
     result.newLayout = barrier.after.layout;
     result.srcQueueFamilyIndex = result.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     result.image = image.handle();
-    result.subresourceRange = {gpu::format_info(image.format()).aspect, barrier.base_mip, barrier.mips, barrier.base_layer,
-                               barrier.layers};
+    result.subresourceRange = {gpu::format_info(image.format()).aspect, barrier.base_mip, barrier.mips,
+                               barrier.base_layer, barrier.layers};
     return result;
 }
 
@@ -52,9 +52,14 @@ VkImageMemoryBarrier2 image_barrier(const gpu::Image& image, const Barrier& barr
 VkClearColorValue poison_color(VkFormat format) {
     VkClearColorValue value{};
     switch (gpu::format_info(format).kind) {
-        case gpu::FormatKind::integer: std::ranges::fill(value.uint32, ~0u); break;
-        case gpu::FormatKind::normalized: value = {{1.0f, 0.0f, 1.0f, 1.0f}}; break;
-        default: std::ranges::fill(value.float32, std::numeric_limits<float>::quiet_NaN());
+        case gpu::FormatKind::integer:
+            std::ranges::fill(value.uint32, ~0u);
+            break;
+        case gpu::FormatKind::normalized:
+            value = {{1.0f, 0.0f, 1.0f, 1.0f}};
+            break;
+        default:
+            std::ranges::fill(value.float32, std::numeric_limits<float>::quiet_NaN());
     }
     return value;
 }
@@ -62,16 +67,23 @@ constexpr std::uint32_t poison_word = 0xffffffffu;  // NaN as a float and as two
 
 }  // namespace
 
-const gpu::Image& PassContext::image(ImageHandle handle) const { return executor_.image(handle); }
-const gpu::Buffer& PassContext::buffer(BufferHandle handle) const { return executor_.buffer(handle); }
-gpu::Device& PassContext::device() const { return executor_.device(); }
+const gpu::Image& PassContext::image(ImageHandle handle) const {
+    return executor_.image(handle);
+}
+const gpu::Buffer& PassContext::buffer(BufferHandle handle) const {
+    return executor_.buffer(handle);
+}
+gpu::Device& PassContext::device() const {
+    return executor_.device();
+}
 
 Result<void> Executor::set_graph(const Graph& graph) {
     CompileOptions options;
     options.alias = settings_.alias;
     options.memory_requirements = [this](const Resource& resource) {
-        VkMemoryRequirements requirements = resource.is_image ? gpu::Image::memory_requirements(device_, resource.image)
-                                                              : gpu::Buffer::memory_requirements(device_, resource.buffer);
+        VkMemoryRequirements requirements = resource.is_image
+                                                ? gpu::Image::memory_requirements(device_, resource.image)
+                                                : gpu::Buffer::memory_requirements(device_, resource.buffer);
         // Images and buffers may be neighbours in a heap.
         requirements.alignment = std::max(requirements.alignment, device_.limits().bufferImageGranularity);
         return requirements;
@@ -89,7 +101,8 @@ Result<void> Executor::set_graph(const Graph& graph) {
 
 Result<void> Executor::make_transients(Frame& frame) const {
     for (const Heap& heap : frame.compiled.heaps) {
-        auto block = gpu::MemoryBlock::create(device_, {heap.size, heap.alignment, heap.memory_types}, "transient resources");
+        auto block =
+            gpu::MemoryBlock::create(device_, {heap.size, heap.alignment, heap.memory_types}, "transient resources");
         if (!block) return tl::unexpected(block.error());
         frame.heaps.push_back(std::move(*block));
     }
@@ -133,7 +146,8 @@ Result<void> Executor::make_persistents(Frame& frame) const {
         } else {
             const auto known = frame_.persistent_buffers.find(name);
             auto& persistent = frame.persistent_buffers[name];
-            if (known != frame_.persistent_buffers.end() && same(known->second->buffer.description(), resource.buffer)) {
+            if (known != frame_.persistent_buffers.end() &&
+                same(known->second->buffer.description(), resource.buffer)) {
                 persistent = known->second;
             } else {
                 auto buffer = gpu::Buffer::create(device_, resource.buffer);
@@ -146,10 +160,18 @@ Result<void> Executor::make_persistents(Frame& frame) const {
     return {};
 }
 
-void Executor::bind(ImageHandle handle, const gpu::Image& image) { frame_.slots[handle.index].image = &image; }
-void Executor::bind(BufferHandle handle, const gpu::Buffer& buffer) { frame_.slots[handle.index].buffer = &buffer; }
-const gpu::Image& Executor::image(ImageHandle handle) const { return *frame_.slots[handle.index].image; }
-const gpu::Buffer& Executor::buffer(BufferHandle handle) const { return *frame_.slots[handle.index].buffer; }
+void Executor::bind(ImageHandle handle, const gpu::Image& image) {
+    frame_.slots[handle.index].image = &image;
+}
+void Executor::bind(BufferHandle handle, const gpu::Buffer& buffer) {
+    frame_.slots[handle.index].buffer = &buffer;
+}
+const gpu::Image& Executor::image(ImageHandle handle) const {
+    return *frame_.slots[handle.index].image;
+}
+const gpu::Buffer& Executor::buffer(BufferHandle handle) const {
+    return *frame_.slots[handle.index].buffer;
+}
 
 void Executor::reset_history() {
     for (auto& [name, image] : frame_.persistent_images) image->clear = true;
@@ -180,8 +202,10 @@ Result<void> Executor::execute(gpu::Commands& commands, gpu::Timestamps* timesta
     record(commands, compiled.final_barriers);
     for (const FinalState& final_state : compiled.final_states) {
         const Slot& slot = frame_.slots[final_state.resource];
-        if (slot.image) slot.image->set_state(final_state.state);
-        else slot.buffer->set_state(final_state.state);
+        if (slot.image)
+            slot.image->set_state(final_state.state);
+        else
+            slot.buffer->set_state(final_state.state);
     }
     swap_history();
     return {};
@@ -225,8 +249,10 @@ void Executor::clear_persistents(gpu::Commands& commands) {
         gpu::Access before = everything;
         before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
         commands.barrier({&image}, before, cleared);
-        if (gpu::format_info(image.format()).kind == gpu::FormatKind::depth) commands.clear_depth({&image}, 0.0f);
-        else commands.clear({&image}, VkClearColorValue{});
+        if (gpu::format_info(image.format()).kind == gpu::FormatKind::depth)
+            commands.clear_depth({&image}, 0.0f);
+        else
+            commands.clear({&image}, VkClearColorValue{});
         image.set_state(cleared);
         persistent->clear = false;
     }
@@ -250,8 +276,10 @@ void Executor::poison(gpu::Commands& commands, std::uint32_t position) {
             continue;
         }
         commands.barrier({slot.image}, everything, cleared);
-        if (gpu::format_info(slot.image->format()).kind == gpu::FormatKind::depth) commands.clear_depth({slot.image}, 0.5f);
-        else commands.clear({slot.image}, poison_color(slot.image->format()));
+        if (gpu::format_info(slot.image->format()).kind == gpu::FormatKind::depth)
+            commands.clear_depth({slot.image}, 0.5f);
+        else
+            commands.clear({slot.image}, poison_color(slot.image->format()));
     }
 }
 

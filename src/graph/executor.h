@@ -30,7 +30,8 @@ private:
 };
 
 struct ExecutorSettings {
-    bool poison = false;  ///< fill transient memory with NaN before its first use each frame, to find uninitialised reads
+    bool poison =
+        false;  ///< fill transient memory with NaN before its first use each frame, to find uninitialised reads
     bool alias = true;
 };
 

@@ -94,12 +94,24 @@ PassHandle Graph::add_pass(std::string name, PassKind kind, const std::function<
     return {index};
 }
 
-PassBuilder& PassBuilder::read(ImagePart image, Usage usage) { return use(image, usage, true, false); }
-PassBuilder& PassBuilder::read(BufferHandle buffer, Usage usage) { return use(buffer, usage, true, false); }
-PassBuilder& PassBuilder::write(ImagePart image, Usage usage) { return use(image, usage, false, true); }
-PassBuilder& PassBuilder::write(BufferHandle buffer, Usage usage) { return use(buffer, usage, false, true); }
-PassBuilder& PassBuilder::read_write(ImagePart image, Usage usage) { return use(image, usage, true, true); }
-PassBuilder& PassBuilder::read_write(BufferHandle buffer, Usage usage) { return use(buffer, usage, true, true); }
+PassBuilder& PassBuilder::read(ImagePart image, Usage usage) {
+    return use(image, usage, true, false);
+}
+PassBuilder& PassBuilder::read(BufferHandle buffer, Usage usage) {
+    return use(buffer, usage, true, false);
+}
+PassBuilder& PassBuilder::write(ImagePart image, Usage usage) {
+    return use(image, usage, false, true);
+}
+PassBuilder& PassBuilder::write(BufferHandle buffer, Usage usage) {
+    return use(buffer, usage, false, true);
+}
+PassBuilder& PassBuilder::read_write(ImagePart image, Usage usage) {
+    return use(image, usage, true, true);
+}
+PassBuilder& PassBuilder::read_write(BufferHandle buffer, Usage usage) {
+    return use(buffer, usage, true, true);
+}
 
 PassBuilder& PassBuilder::side_effect() {
     graph_.passes_[pass_].side_effect = true;
@@ -108,8 +120,10 @@ PassBuilder& PassBuilder::side_effect() {
 
 PassBuilder& PassBuilder::after(PassHandle pass) {
     PassDeclaration& declared = graph_.passes_[pass_];
-    if (pass.index >= graph_.passes_.size()) graph_.add_error(declared.name, "after() names no pass");
-    else declared.after.push_back(pass.index);
+    if (pass.index >= graph_.passes_.size())
+        graph_.add_error(declared.name, "after() names no pass");
+    else
+        declared.after.push_back(pass.index);
     return *this;
 }
 
@@ -120,14 +134,15 @@ PassBuilder& PassBuilder::use(ImagePart image, Usage usage, bool reads, bool wri
         return *this;
     }
     const Resource& resource = graph_.resources_[image.image.index];
-    ResourceUse use{image.image.index, usage, reads, writes, image.base_mip, image.mips, image.base_layer, image.layers};
+    ResourceUse use{image.image.index, usage,       reads, writes, image.base_mip, image.mips,
+                    image.base_layer,  image.layers};
     use.mips = resolved(image.base_mip, image.mips, resource.mips());
     use.layers = resolved(image.base_layer, image.layers, resource.layers());
     if (use.mips == 0 || use.layers == 0 || use.base_mip + use.mips > resource.mips() ||
         use.base_layer + use.layers > resource.layers())
-        graph_.add_error(pass, fmt::format("image '{}' has {} mips and {} layers, not mips {}+{} of layers {}+{}",
-                                           resource.name(), resource.mips(), resource.layers(), use.base_mip, use.mips,
-                                           use.base_layer, use.layers));
+        graph_.add_error(
+            pass, fmt::format("image '{}' has {} mips and {} layers, not mips {}+{} of layers {}+{}", resource.name(),
+                              resource.mips(), resource.layers(), use.base_mip, use.mips, use.base_layer, use.layers));
     else if (image_usage(usage) == 0)
         graph_.add_error(pass, fmt::format("image '{}' cannot be used as {}", resource.name(), usage_name(usage)));
     else
@@ -151,9 +166,11 @@ void PassBuilder::declare(const ResourceUse& use) {
     PassDeclaration& pass = graph_.passes_[pass_];
     const std::string& name = graph_.resources_[use.resource].name();
     if (use.writes && !usage_writes(use.usage))
-        return graph_.add_error(pass.name, fmt::format("'{}' is written as {}, which only reads", name, usage_name(use.usage)));
+        return graph_.add_error(pass.name,
+                                fmt::format("'{}' is written as {}, which only reads", name, usage_name(use.usage)));
     if (use.reads && !use.writes && !usage_reads(use.usage))
-        return graph_.add_error(pass.name, fmt::format("'{}' is read as {}, which writes", name, usage_name(use.usage)));
+        return graph_.add_error(pass.name,
+                                fmt::format("'{}' is read as {}, which writes", name, usage_name(use.usage)));
     if (use.writes && !use.reads && use.usage == Usage::storage_read_write)
         return graph_.add_error(pass.name,
                                 fmt::format("'{}' is only written, but as storage_read_write: use read_write()", name));

@@ -56,9 +56,9 @@ struct Resource {
     Lifetime lifetime = Lifetime::transient;
     bool exported = false;
     std::optional<Usage> final_usage;
-    gpu::ImageDescription image;    ///< usage flags are added by the graph
-    gpu::BufferDescription buffer;  ///< as above
-    gpu::Access initial;            ///< imported: its state when the frame begins (Executor takes the real one)
+    gpu::ImageDescription image;     ///< usage flags are added by the graph
+    gpu::BufferDescription buffer;   ///< as above
+    gpu::Access initial;             ///< imported: its state when the frame begins (Executor takes the real one)
     std::uint32_t history_of = ~0u;  ///< this is the previous frame's content of that resource
 
     [[nodiscard]] const std::string& name() const { return is_image ? image.name : buffer.name; }
@@ -113,7 +113,8 @@ private:
 
 /// What is to be done in a frame: resources, and passes that declare how they use them. Declaring makes no
 /// Vulkan call. A pass that reads a resource runs after the passes declared before it that write it, or, if there
-/// are none and the resource is transient, after those declared later. Build it once, compile it, execute it each frame.
+/// are none and the resource is transient, after those declared later. Build it once, compile it, execute it each
+/// frame.
 class Graph {
 public:
     ImageHandle create_image(gpu::ImageDescription description);
@@ -141,8 +142,12 @@ public:
 
     [[nodiscard]] const std::vector<Resource>& resources() const { return resources_; }
     [[nodiscard]] const std::vector<PassDeclaration>& passes() const { return passes_; }
-    [[nodiscard]] const gpu::ImageDescription& description(ImageHandle image) const { return resources_[image.index].image; }
-    [[nodiscard]] const gpu::BufferDescription& description(BufferHandle buffer) const { return resources_[buffer.index].buffer; }
+    [[nodiscard]] const gpu::ImageDescription& description(ImageHandle image) const {
+        return resources_[image.index].image;
+    }
+    [[nodiscard]] const gpu::BufferDescription& description(BufferHandle buffer) const {
+        return resources_[buffer.index].buffer;
+    }
     /// Mistakes of declaration (a bad handle, a range outside the image …), reported by compile().
     [[nodiscard]] const std::vector<Error>& errors() const { return errors_; }
 

@@ -6,7 +6,9 @@
 namespace heliodon::graph {
 namespace {
 
-VkDeviceSize round_up(VkDeviceSize value, VkDeviceSize alignment) { return (value + alignment - 1) / alignment * alignment; }
+VkDeviceSize round_up(VkDeviceSize value, VkDeviceSize alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
 
 /// Tightly packed size, where no device is there to ask.
 VkMemoryRequirements estimate(const Resource& resource) {
@@ -34,8 +36,10 @@ std::vector<Placement> find_lifetimes(const CompiledGraph& compiled) {
         for (const ResourceUse& use : compiled.passes[compiled.order[position].pass].uses) {
             if (compiled.resources[use.resource].lifetime != Lifetime::transient) continue;
             const auto known = std::ranges::find(placements, use.resource, &Placement::resource);
-            if (known != placements.end()) known->last_pass = position;
-            else placements.push_back({use.resource, 0, 0, 0, position, position});
+            if (known != placements.end())
+                known->last_pass = position;
+            else
+                placements.push_back({use.resource, 0, 0, 0, position, position});
         }
     }
     // What is wanted after the frame is nobody else's memory at any time.
@@ -48,7 +52,8 @@ std::vector<Placement> find_lifetimes(const CompiledGraph& compiled) {
 }
 
 /// The lowest offset where `placement` meets none of those that live at the same time.
-VkDeviceSize find_offset(const std::vector<Placement>& placed, const Placement& placement, VkDeviceSize alignment, bool alias) {
+VkDeviceSize find_offset(const std::vector<Placement>& placed, const Placement& placement, VkDeviceSize alignment,
+                         bool alias) {
     std::vector<const Placement*> neighbours;
     for (const Placement& other : placed)
         if (other.heap == placement.heap && (!alias || same_time(other, placement))) neighbours.push_back(&other);

@@ -112,14 +112,17 @@ std::vector<bool> find_live(const Graph& graph, const std::vector<Dependency>& d
 }
 
 /// Names one cycle among the passes that could not be ordered.
-std::string name_cycle(const Graph& graph, const std::vector<Dependency>& dependencies, const std::vector<bool>& waiting) {
+std::string name_cycle(const Graph& graph, const std::vector<Dependency>& dependencies,
+                       const std::vector<bool>& waiting) {
     std::uint32_t pass = 0;
     while (!waiting[pass]) ++pass;
     std::vector<std::uint32_t> path;
     // Every waiting pass waits for another one: walking back must come round.
     while (std::ranges::find(path, pass) == path.end()) {
         path.push_back(pass);
-        pass = std::ranges::find_if(dependencies, [&](const Dependency& d) { return d.to == pass && waiting[d.from]; })->from;
+        pass = std::ranges::find_if(dependencies, [&](const Dependency& d) {
+                   return d.to == pass && waiting[d.from];
+               })->from;
     }
     std::string text = fmt::format("'{}'", graph.passes()[pass].name);
     for (auto step = path.rbegin(); step != path.rend(); ++step) {
@@ -158,8 +161,10 @@ Result<PassOrder> order_passes(const Graph& graph) {
     std::set<std::uint32_t> ready;
     std::vector<bool> waiting = live;
     for (std::uint32_t pass = 0; pass < graph.passes().size(); ++pass) {
-        if (!live[pass]) result.culled.push_back(pass);
-        else if (waits_for[pass] == 0) ready.insert(pass);
+        if (!live[pass])
+            result.culled.push_back(pass);
+        else if (waits_for[pass] == 0)
+            ready.insert(pass);
     }
     while (!ready.empty()) {
         const std::uint32_t pass = *ready.begin();

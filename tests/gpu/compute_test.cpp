@@ -28,7 +28,8 @@ TEST_F(Compute, MultipliesAndAdds) {
     const Buffer source = buffer("source", count * 4), target = buffer("target", count * 4);
     expect_ok(device().upload(source, std::span<const std::uint32_t>(input)));
     expect_ok(device().run("multiply", [&](Commands& commands) {
-        commands.dispatch_threads(compute("multiply_add.comp"), MultiplyAdd{count, 3, 7}, {source, target}, {count, 1, 1});
+        commands.dispatch_threads(compute("multiply_add.comp"), MultiplyAdd{count, 3, 7}, {source, target},
+                                  {count, 1, 1});
     }));
     const auto output = value_of(device().read_back_as<std::uint32_t>(target));
     for (std::uint32_t i = 0; i < count; ++i) ASSERT_EQ(output[i], 3 * i + 7);
@@ -47,7 +48,8 @@ TEST_F(Compute, ReflectionKnowsTheInterface) {
 TEST_F(Compute, RefusesPushConstantsOfAnotherSize) {
     const Buffer source = buffer("source", 64), target = buffer("target", 64);
     const std::string error = refused([&](Commands& commands) {
-        commands.dispatch(compute("multiply_add.comp"), std::array<std::uint32_t, 2>{1, 2}, {source, target}, {1, 1, 1});
+        commands.dispatch(compute("multiply_add.comp"), std::array<std::uint32_t, 2>{1, 2}, {source, target},
+                          {1, 1, 1});
     });
     EXPECT_EQ(error, "pipeline 'shaders/multiply_add.comp': expected 12 bytes of push constants, found 8");
 }
@@ -59,8 +61,9 @@ TEST_F(Compute, RefusesAMissingBindingByName) {
         commands.dispatch(compute("multiply_add.comp"), MultiplyAdd{}, {source}, {1, 1, 1});
         commands.end_label();
     });
-    EXPECT_EQ(error, "pass 'multiply', pipeline 'shaders/multiply_add.comp': expected 2 bindings (0 'source', 1 'target'), "
-                     "found 1");
+    EXPECT_EQ(error,
+              "pass 'multiply', pipeline 'shaders/multiply_add.comp': expected 2 bindings (0 'source', 1 'target'), "
+              "found 1");
 }
 
 TEST_F(Compute, RefusesABindingOfTheWrongKindByName) {
@@ -69,12 +72,14 @@ TEST_F(Compute, RefusesABindingOfTheWrongKindByName) {
     const std::string error = refused([&](Commands& commands) {
         commands.dispatch(compute("multiply_add.comp"), MultiplyAdd{}, {source, image}, {1, 1, 1});
     });
-    EXPECT_EQ(error, "pipeline 'shaders/multiply_add.comp': binding 1 'target' is a storage buffer, but an image was given");
+    EXPECT_EQ(error,
+              "pipeline 'shaders/multiply_add.comp': binding 1 'target' is a storage buffer, but an image was given");
     const std::string storage = refused([&](Commands& commands) {
         commands.dispatch(compute("write_mip.comp"), glm::vec4(1), {image}, {1, 1, 1});
     });
-    EXPECT_EQ(storage, "pipeline 'shaders/write_mip.comp': binding 0 'target' is a storage image, but image 'picture' was "
-                       "not created as one");
+    EXPECT_EQ(storage,
+              "pipeline 'shaders/write_mip.comp': binding 0 'target' is a storage image, but image 'picture' was "
+              "not created as one");
 }
 
 TEST_F(Compute, SpecializesConstantsAndTheWorkgroupSize) {
@@ -85,13 +90,13 @@ TEST_F(Compute, SpecializesConstantsAndTheWorkgroupSize) {
         commands.dispatch_threads(pipeline, NoPushConstants{}, {values}, {64, 1, 1});
     }));
     const auto output = value_of(device().read_back_as<std::uint32_t>(values));
-    for (std::uint32_t i = 0; i < 64; ++i)
-        ASSERT_EQ(output[i], (i * 1664525u + 1013904223u) * 1664525u + 1013904223u);
+    for (std::uint32_t i = 0; i < 64; ++i) ASSERT_EQ(output[i], (i * 1664525u + 1013904223u) * 1664525u + 1013904223u);
 }
 
 TEST_F(Compute, ReadsItsGroupCountFromABuffer) {
     const ComputePipeline& pipeline = compute("work.comp", {{0, 16}});
-    const Buffer values = buffer("values", 64 * 4), arguments = buffer("arguments", 12, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    const Buffer values = buffer("values", 64 * 4),
+                 arguments = buffer("arguments", 12, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     const std::vector<std::uint32_t> groups = {2, 1, 1}, zeros(64, 0);
     expect_ok(device().upload(arguments, std::span<const std::uint32_t>(groups)));
     expect_ok(device().upload(values, std::span<const std::uint32_t>(zeros)));
@@ -197,7 +202,8 @@ TEST_F(Compute, IsTimedByScope) {
         timestamps.end(commands, first);
         commands.compute_barrier();
         const std::uint32_t second = timestamps.begin(commands, "long");
-        commands.dispatch_threads(compute("work.comp", {{0, 64}, {1, rounds}}), NoPushConstants{}, {values}, {4096, 1, 1});
+        commands.dispatch_threads(compute("work.comp", {{0, 64}, {1, rounds}}), NoPushConstants{}, {values},
+                                  {4096, 1, 1});
         timestamps.end(commands, second);
         return value_of(device().submit(std::move(commands)));
     };

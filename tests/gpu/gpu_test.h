@@ -17,7 +17,9 @@ T value_of(Result<T> result) {
     if (!result) throw std::runtime_error(result.error().text());
     return std::move(*result);
 }
-inline void expect_ok(const Result<void>& result) { EXPECT_TRUE(result) << result.error().text(); }
+inline void expect_ok(const Result<void>& result) {
+    EXPECT_TRUE(result) << result.error().text();
+}
 
 /// A device with validation and synchronization validation; every test ends with no message.
 class GpuTest : public testing::Test {
@@ -50,7 +52,8 @@ protected:
         return value_of(Buffer::create(device(), {name, bytes, usage, BufferMemory::device}));
     }
 
-    std::unique_ptr<Pipelines> pipelines = std::make_unique<Pipelines>(*device_, ShaderLibrary(tests::embedded_shaders()));
+    std::unique_ptr<Pipelines> pipelines =
+        std::make_unique<Pipelines>(*device_, ShaderLibrary(tests::embedded_shaders()));
 
 private:
     static inline std::shared_ptr<Instance> instance_;

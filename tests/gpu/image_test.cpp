@@ -70,12 +70,15 @@ TEST_F(Images, OfEveryShapeAreSampled) {
 }
 
 TEST_F(Images, OfImpossibleShapeAreRefusedByName) {
-    for (const ImageDescription& wrong : {ImageDescription{.name = "wrong", .extent = {0, 4, 1}},
-                                          ImageDescription{.name = "wrong", .extent = {4, 4, 1}, .mips = 4},
-                                          ImageDescription{.name = "wrong", .extent = {1u << 20, 4, 1}},
-                                          ImageDescription{.name = "wrong", .extent = {4, 8, 1}, .layers = 6, .shape = ImageShape::cube},
-                                          ImageDescription{.name = "wrong", .format = VK_FORMAT_D32_SFLOAT, .extent = {4, 4, 1},
-                                                           .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT}}) {
+    for (const ImageDescription& wrong :
+         {ImageDescription{.name = "wrong", .extent = {0, 4, 1}},
+          ImageDescription{.name = "wrong", .extent = {4, 4, 1}, .mips = 4},
+          ImageDescription{.name = "wrong", .extent = {1u << 20, 4, 1}},
+          ImageDescription{.name = "wrong", .extent = {4, 8, 1}, .layers = 6, .shape = ImageShape::cube},
+          ImageDescription{.name = "wrong",
+          .format = VK_FORMAT_D32_SFLOAT,
+          .extent = {4, 4, 1},
+          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT}}) {
         const auto made = Image::create(device(), wrong);
         ASSERT_FALSE(made);
         EXPECT_NE(made.error().where.find("'wrong'"), std::string::npos) << made.error().text();
@@ -90,7 +93,8 @@ TEST_F(Images, NeverWrittenAreNotReadBack) {
 
 TEST_F(Images, ShowARasterizedTriangleWithItsTopUp) {
     constexpr int size = 64;
-    const Image target = image({.name = "target", .extent = {size, size, 1}, .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
+    const Image target =
+        image({.name = "target", .extent = {size, size, 1}, .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
     GraphicsDescription description;
     description.name = "triangle";
     description.vertex = "shaders/triangle.vert";

@@ -20,13 +20,15 @@ protected:
     static std::string source(const std::string& expression) {
         return "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"constant.h\"\n"
                "layout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { uint values[]; };\n"
-               "void main() {\n    values[0] = " + expression + ";\n}\n";
+               "void main() {\n    values[0] = " +
+               expression + ";\n}\n";
     }
     void write(const std::string& name, const std::string& text) {
         const auto file = directory / name;
         std::ofstream(file) << text;
         // File systems may count time in steps longer than a test takes.
-        std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(++writes));
+        std::filesystem::last_write_time(
+            file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(++writes));
     }
     std::uint32_t result(const ComputePipeline& pipeline) {
         const Buffer values = buffer("values", 4);

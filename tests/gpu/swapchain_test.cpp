@@ -40,7 +40,8 @@ protected:
         commands.transition(*frame->image, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL});
         commands.clear({frame->image}, {{red, 0, 0, 1}});
-        commands.transition(*frame->image, {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR});
+        commands.transition(*frame->image,
+                            {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR});
         value_of(device->submit(std::move(commands), {.wait = frame->acquired, .signal = frame->finished}));
         return value_of(swapchain.present(*frame));
     }

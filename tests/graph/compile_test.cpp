@@ -19,7 +19,11 @@ constexpr gpu::Access compute_sampled{compute_stage, VK_ACCESS_2_SHADER_SAMPLED_
 
 gpu::ImageDescription square(const std::string& name, std::uint32_t side = 64, std::uint32_t mips = 1,
                              std::uint32_t layers = 1) {
-    return {.name = name, .format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {side, side, 1}, .mips = mips, .layers = layers};
+    return {.name = name,
+            .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+            .extent = {side, side, 1},
+            .mips = mips,
+            .layers = layers};
 }
 
 /// The names of the passes in the order they run.
@@ -83,7 +87,8 @@ TEST_F(FrameGraph, RunsAPassDeclaredTooEarlyAfterTheOneItReads) {
 }
 
 TEST_F(FrameGraph, RunsAReaderBeforeTheNextWriter) {
-    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")), c = graph.create_image(square("c"));
+    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")),
+                      c = graph.create_image(square("c"));
     graph.export_image(a);
     graph.export_image(b);
     writer("write a", a);
@@ -95,7 +100,8 @@ TEST_F(FrameGraph, RunsAReaderBeforeTheNextWriter) {
 }
 
 TEST_F(FrameGraph, RunsAPassAfterAnotherWhenTold) {
-    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")), c = graph.create_image(square("c"));
+    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")),
+                      c = graph.create_image(square("c"));
     graph.export_image(a);
     graph.export_image(b);
     // Declared first, but told to run after the one that comes next.
@@ -154,7 +160,8 @@ TEST_F(FrameGraph, RefusesMistakenDeclarations) {
 }
 
 TEST_F(FrameGraph, CullsPassesWhoseOutputsNobodyUses) {
-    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")), c = graph.create_image(square("c"));
+    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")),
+                      c = graph.create_image(square("c"));
     graph.export_image(a);
     writer("wanted", a);
     writer("feeds the unused", b);
@@ -194,7 +201,10 @@ TEST_F(FrameGraph, PutsExactlyTheBarriersThatAreNeeded) {
     ASSERT_EQ(result.order[0].barriers.size(), 1u);
     // Its memory was last used by these two passes in the frame before.
     EXPECT_EQ(result.order[0].barriers[0],
-              (Barrier{a.index, {compute_stage, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED}, compute_write, true}));
+              (Barrier{a.index,
+                       {compute_stage, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED},
+                       compute_write,
+                       true}));
     ASSERT_EQ(result.order[1].barriers.size(), 2u);
     EXPECT_EQ(result.order[1].barriers[0], (Barrier{a.index, compute_write, compute_sampled}));
     EXPECT_EQ(result.order[1].barriers[1].resource, b.index);
@@ -205,12 +215,15 @@ TEST_F(FrameGraph, PutsExactlyTheBarriersThatAreNeeded) {
 }
 
 TEST_F(FrameGraph, PutsOneBarrierBeforeSeveralReadsInAllTheirStages) {
-    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")), c = graph.create_image(square("c"));
+    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")),
+                      c = graph.create_image(square("c"));
     graph.export_image(b);
     graph.export_image(c);
     writer("write", a);
     filter("first reader", a, b);
-    pass("second reader", [&](PassBuilder& p) { p.read(a, Usage::sampled).write(c, Usage::color_attachment); }, PassKind::graphics);
+    pass(
+        "second reader", [&](PassBuilder& p) { p.read(a, Usage::sampled).write(c, Usage::color_attachment); },
+        PassKind::graphics);
     const CompiledGraph result = compiled();
     const auto first = barriers_of(result, 1, a);
     ASSERT_EQ(first.size(), 1u);
@@ -225,10 +238,12 @@ TEST_F(FrameGraph, WaitsForReadsBeforeAWriteWithoutFlushingAnything) {
     graph.export_image(b);
     writer("write", a);
     filter("read", a, b);
-    pass("draw", [&](PassBuilder& p) { p.write(a, Usage::color_attachment); }, PassKind::graphics);
+    pass(
+        "draw", [&](PassBuilder& p) { p.write(a, Usage::color_attachment); }, PassKind::graphics);
     const auto barriers = barriers_of(compiled(), 2, a);
     ASSERT_EQ(barriers.size(), 1u);
-    EXPECT_EQ(barriers[0].before, (gpu::Access{compute_stage, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}));
+    EXPECT_EQ(barriers[0].before,
+              (gpu::Access{compute_stage, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}));
     EXPECT_EQ(barriers[0].after.stages, color_stage);
     EXPECT_EQ(barriers[0].after.layout, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
@@ -237,8 +252,12 @@ TEST_F(FrameGraph, PutsBarriersOnTheMipsThatChangeOnly) {
     const ImageHandle pyramid = graph.create_image(square("pyramid", 64, 3, 2));
     graph.export_image(pyramid, Usage::sampled);
     pass("base", [&](PassBuilder& p) { p.write({pyramid, 0, 1}, Usage::storage_write); });
-    pass("mip 1", [&](PassBuilder& p) { p.read({pyramid, 0, 1}, Usage::sampled).write({pyramid, 1, 1}, Usage::storage_write); });
-    pass("mip 2", [&](PassBuilder& p) { p.read({pyramid, 1, 1}, Usage::sampled).write({pyramid, 2, 1}, Usage::storage_write); });
+    pass("mip 1", [&](PassBuilder& p) {
+        p.read({pyramid, 0, 1}, Usage::sampled).write({pyramid, 1, 1}, Usage::storage_write);
+    });
+    pass("mip 2", [&](PassBuilder& p) {
+        p.read({pyramid, 1, 1}, Usage::sampled).write({pyramid, 2, 1}, Usage::storage_write);
+    });
     const CompiledGraph result = compiled();
     const auto second = barriers_of(result, 1, pyramid);
     ASSERT_EQ(second.size(), 2u);
@@ -249,7 +268,8 @@ TEST_F(FrameGraph, PutsBarriersOnTheMipsThatChangeOnly) {
     ASSERT_EQ(result.final_barriers.size(), 2u);
     EXPECT_EQ(result.final_barriers[0].base_mip, 0u);
     EXPECT_EQ(result.final_barriers[0].mips, 2u);
-    EXPECT_EQ(result.final_barriers[1], (Barrier{pyramid.index, compute_write, result.final_states[0].state, false, false, 2, 1, 0, 2}));
+    EXPECT_EQ(result.final_barriers[1],
+              (Barrier{pyramid.index, compute_write, result.final_states[0].state, false, false, 2, 1, 0, 2}));
     EXPECT_EQ(result.final_states[0].state.layout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
@@ -273,15 +293,16 @@ TEST_F(FrameGraph, LeavesImportedResourcesToTheirRealState) {
 TEST_F(FrameGraph, PresentsWhatItExportsForAWindow) {
     const ImageHandle window = graph.import_image(square("window"));
     graph.export_image(window, Usage::present);
-    pass("draw", [&](PassBuilder& p) { p.write(window, Usage::color_attachment); }, PassKind::graphics);
+    pass(
+        "draw", [&](PassBuilder& p) { p.write(window, Usage::color_attachment); }, PassKind::graphics);
     const CompiledGraph result = compiled();
     ASSERT_EQ(result.final_barriers.size(), 1u);
     EXPECT_EQ(result.final_barriers[0].after.layout, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
 TEST_F(FrameGraph, SharesMemoryBetweenResourcesThatDoNotLiveAtTheSameTime) {
-    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")), c = graph.create_image(square("c")),
-                      d = graph.create_image(square("d"));
+    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")),
+                      c = graph.create_image(square("c")), d = graph.create_image(square("d"));
     graph.export_image(d);
     writer("write a", a);
     filter("a to b", a, b);
@@ -296,7 +317,8 @@ TEST_F(FrameGraph, SharesMemoryBetweenResourcesThatDoNotLiveAtTheSameTime) {
     EXPECT_TRUE(apart(pa, pb)) << "alive together in the second pass";
     EXPECT_TRUE(apart(pb, pc));
     EXPECT_EQ(pa.offset, pc.offset) << "a is dead when c is born";
-    for (const Placement* other : {&pa, &pb, &pc}) EXPECT_TRUE(apart(pd, *other)) << "an exported resource shares with none";
+    for (const Placement* other : {&pa, &pb, &pc})
+        EXPECT_TRUE(apart(pd, *other)) << "an exported resource shares with none";
     EXPECT_EQ(result.heaps[0].size, 3 * pa.size);
     EXPECT_EQ(result.unaliased_bytes, 4 * pa.size);
 
@@ -306,9 +328,11 @@ TEST_F(FrameGraph, SharesMemoryBetweenResourcesThatDoNotLiveAtTheSameTime) {
 }
 
 TEST_F(FrameGraph, WaitsForTheUsersOfSharedMemoryBeforeItsNextUse) {
-    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")), c = graph.create_image(square("c"));
+    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")),
+                      c = graph.create_image(square("c"));
     graph.export_image(b);
-    pass("draw a", [&](PassBuilder& p) { p.write(a, Usage::color_attachment); }, PassKind::graphics);
+    pass(
+        "draw a", [&](PassBuilder& p) { p.write(a, Usage::color_attachment); }, PassKind::graphics);
     pass("use a", [&](PassBuilder& p) { p.read(a, Usage::sampled).write(b, Usage::storage_write); });
     writer("write c", c);
     pass("use c", [&](PassBuilder& p) { p.read(c, Usage::sampled).read_write(b, Usage::storage_read_write); });
@@ -324,7 +348,8 @@ TEST_F(FrameGraph, WaitsForTheUsersOfSharedMemoryBeforeItsNextUse) {
 TEST_F(FrameGraph, PlacesResourcesOfDifferentMemoryTypesApart) {
     const ImageHandle a = graph.create_image(square("a"));
     const BufferHandle b = graph.create_buffer({.name = "b", .size = 100});
-    pass("write", [&](PassBuilder& p) { p.write(a, Usage::storage_write).write(b, Usage::storage_write).side_effect(); });
+    pass("write",
+         [&](PassBuilder& p) { p.write(a, Usage::storage_write).write(b, Usage::storage_write).side_effect(); });
     CompileOptions options;
     options.memory_requirements = [](const Resource& resource) {
         return VkMemoryRequirements{resource.is_image ? 4096u : 128u, 64, resource.is_image ? 2u : 1u};
@@ -341,7 +366,8 @@ TEST_F(FrameGraph, AddsTheUsageFlagsThatItsPassesNeed) {
     const auto history = graph.create_history(square("history"));
     graph.export_image(a);
     filter("filter", history.previous, a);
-    pass("draw", [&](PassBuilder& p) { p.write(history.current, Usage::color_attachment); }, PassKind::graphics);
+    pass(
+        "draw", [&](PassBuilder& p) { p.write(history.current, Usage::color_attachment); }, PassKind::graphics);
     const CompiledGraph result = compiled();
     EXPECT_EQ(result.resources[a.index].image.usage, VK_IMAGE_USAGE_STORAGE_BIT);
     constexpr VkImageUsageFlags both = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;

@@ -13,7 +13,9 @@ T value_of(Result<T> result) {
     if (!result) throw std::runtime_error(result.error().text());
     return std::move(*result);
 }
-void expect_ok(const Result<void>& result) { EXPECT_TRUE(result) << result.error().text(); }
+void expect_ok(const Result<void>& result) {
+    EXPECT_TRUE(result) << result.error().text();
+}
 
 /// Frames on a real device under validation; every test ends without a message.
 class Execution : public testing::Test {
@@ -32,26 +34,30 @@ protected:
     }
 
     static gpu::Device& device() { return *device_; }
-    const gpu::ComputePipeline& compute(const std::string& name) { return *value_of(pipelines.compute("shaders/" + name)); }
+    const gpu::ComputePipeline& compute(const std::string& name) {
+        return *value_of(pipelines.compute("shaders/" + name));
+    }
     static gpu::ImageDescription square(const std::string& name) {
         return {.name = name, .format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {side, side, 1}};
     }
     void add_fill(const std::string& name, ImageHandle target, float value) {
-        graph.add_pass(name, PassKind::compute, [&](PassBuilder& p) { p.write(target, Usage::storage_write); },
-                       [this, target, value](PassContext& context) {
-                           context.commands.dispatch_threads(compute("fill.comp"), glm::vec4(value), {context.image(target)},
-                                                             {side, side, 1});
-                       });
+        graph.add_pass(
+            name, PassKind::compute, [&](PassBuilder& p) { p.write(target, Usage::storage_write); },
+            [this, target, value](PassContext& context) {
+                context.commands.dispatch_threads(compute("fill.comp"), glm::vec4(value), {context.image(target)},
+                                                  {side, side, 1});
+            });
     }
     void add_sum(const std::string& name, ImageHandle source, ImageHandle target, float summand) {
         const VkSampler sampler = value_of(device().sampler(gpu::SamplerDescription::nearest_clamp()));
-        graph.add_pass(name, PassKind::compute,
-                       [&](PassBuilder& p) { p.read(source, Usage::sampled).write(target, Usage::storage_write); },
-                       [this, source, target, summand, sampler](PassContext& context) {
-                           context.commands.dispatch_threads(compute("add.comp"), glm::vec4(summand),
-                                                             {{context.image(source), sampler}, context.image(target)},
-                                                             {side, side, 1});
-                       });
+        graph.add_pass(
+            name, PassKind::compute,
+            [&](PassBuilder& p) { p.read(source, Usage::sampled).write(target, Usage::storage_write); },
+            [this, source, target, summand, sampler](PassContext& context) {
+                context.commands.dispatch_threads(compute("add.comp"), glm::vec4(summand),
+                                                  {{context.image(source), sampler}, context.image(target)},
+                                                  {side, side, 1});
+            });
     }
     void run(Executor& executor, int frames = 1, gpu::Timestamps* timestamps = nullptr) {
         for (int frame = 0; frame < frames; ++frame) {
@@ -89,11 +95,12 @@ TEST_F(Execution, GivesTheRightPictureWithAliasedMemoryOverManyFrames) {
 TEST_F(Execution, PoisonsMemoryThatAPassForgetsToWrite) {
     const ImageHandle half = graph.create_image(square("half")), result = graph.create_image(square("result"));
     graph.export_image(result);
-    graph.add_pass("half", PassKind::compute, [&](PassBuilder& p) { p.write(half, Usage::storage_write); },
-                   [this, half](PassContext& context) {
-                       context.commands.dispatch_threads(compute("half_fill.comp"), gpu::NoPushConstants{},
-                                                         {context.image(half)}, {side, side, 1});
-                   });
+    graph.add_pass(
+        "half", PassKind::compute, [&](PassBuilder& p) { p.write(half, Usage::storage_write); },
+        [this, half](PassContext& context) {
+            context.commands.dispatch_threads(compute("half_fill.comp"), gpu::NoPushConstants{}, {context.image(half)},
+                                              {side, side, 1});
+        });
     add_sum("copy", half, result, 0.0f);
     Executor executor(device(), {.poison = true});
     expect_ok(executor.set_graph(graph));
@@ -130,20 +137,20 @@ TEST_F(Execution, DispatchesAsManyGroupsAsAnEarlierPassCounted) {
     const BufferHandle groups = graph.create_buffer({.name = "groups", .size = 12});
     const BufferHandle tally = graph.create_persistent_buffer({.name = "tally", .size = 4});
     graph.export_buffer(tally, Usage::transfer_read);
-    graph.add_pass("count", PassKind::compute,
-                   [&](PassBuilder& p) {
-                       p.read_write(counter, Usage::storage_read_write).write(groups, Usage::storage_write);
-                   },
-                   [=, this](PassContext& context) {
-                       context.commands.dispatch(compute("count.comp"), gpu::NoPushConstants{},
-                                                 {context.buffer(counter), context.buffer(groups)}, {1, 1, 1});
-                   });
-    graph.add_pass("tally", PassKind::compute,
-                   [&](PassBuilder& p) { p.read(groups, Usage::indirect).read_write(tally, Usage::storage_read_write); },
-                   [=, this](PassContext& context) {
-                       context.commands.dispatch_indirect(compute("tally.comp"), gpu::NoPushConstants{},
-                                                          {context.buffer(tally)}, context.buffer(groups));
-                   });
+    graph.add_pass(
+        "count", PassKind::compute,
+        [&](PassBuilder& p) { p.read_write(counter, Usage::storage_read_write).write(groups, Usage::storage_write); },
+        [=, this](PassContext& context) {
+            context.commands.dispatch(compute("count.comp"), gpu::NoPushConstants{},
+                                      {context.buffer(counter), context.buffer(groups)}, {1, 1, 1});
+        });
+    graph.add_pass(
+        "tally", PassKind::compute,
+        [&](PassBuilder& p) { p.read(groups, Usage::indirect).read_write(tally, Usage::storage_read_write); },
+        [=, this](PassContext& context) {
+            context.commands.dispatch_indirect(compute("tally.comp"), gpu::NoPushConstants{}, {context.buffer(tally)},
+                                               context.buffer(groups));
+        });
     Executor executor(device(), {.poison = true});
     expect_ok(executor.set_graph(graph));
     run(executor, 4);
@@ -151,10 +158,13 @@ TEST_F(Execution, DispatchesAsManyGroupsAsAnEarlierPassCounted) {
 }
 
 TEST_F(Execution, RastersAndComputesInTurnOnAnImportedImage) {
-    const gpu::Image target = value_of(gpu::Image::create(
-        device(), {.name = "target", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {side, side, 1}, .usage = VK_IMAGE_USAGE_STORAGE_BIT}));
+    const gpu::Image target = value_of(gpu::Image::create(device(), {.name = "target",
+                                                                     .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                                     .extent = {side, side, 1},
+                                                                     .usage = VK_IMAGE_USAGE_STORAGE_BIT}));
     const ImageHandle drawn = graph.create_image(square("drawn"));
-    const ImageHandle depth = graph.create_image({.name = "depth", .format = VK_FORMAT_D32_SFLOAT, .extent = {side, side, 1}});
+    const ImageHandle depth =
+        graph.create_image({.name = "depth", .format = VK_FORMAT_D32_SFLOAT, .extent = {side, side, 1}});
     const ImageHandle output = graph.import_image(target.description());
     gpu::GraphicsDescription description;
     description.name = "fullscreen";
@@ -173,13 +183,17 @@ TEST_F(Execution, RastersAndComputesInTurnOnAnImportedImage) {
         context.commands.draw(3);
         context.commands.end_rendering();
     };
-    graph.add_pass("draw", PassKind::graphics,
-                   [&](PassBuilder& p) { p.write(drawn, Usage::color_attachment).write(depth, Usage::depth_attachment); },
-                   [=](PassContext& context) { draw(context, VK_ATTACHMENT_LOAD_OP_CLEAR, 2.0f); });
+    graph.add_pass(
+        "draw", PassKind::graphics,
+        [&](PassBuilder& p) { p.write(drawn, Usage::color_attachment).write(depth, Usage::depth_attachment); },
+        [=](PassContext& context) { draw(context, VK_ATTACHMENT_LOAD_OP_CLEAR, 2.0f); });
     // At the same depth nothing passes the test: the first colour stays.
-    graph.add_pass("draw behind", PassKind::graphics,
-                   [&](PassBuilder& p) { p.read_write(drawn, Usage::color_attachment).read_write(depth, Usage::depth_attachment); },
-                   [=](PassContext& context) { draw(context, VK_ATTACHMENT_LOAD_OP_LOAD, 9.0f); });
+    graph.add_pass(
+        "draw behind", PassKind::graphics,
+        [&](PassBuilder& p) {
+            p.read_write(drawn, Usage::color_attachment).read_write(depth, Usage::depth_attachment);
+        },
+        [=](PassContext& context) { draw(context, VK_ATTACHMENT_LOAD_OP_LOAD, 9.0f); });
     add_sum("sum", drawn, output, 0.5f);
 
     Executor executor(device(), {.poison = true});
@@ -203,10 +217,11 @@ TEST_F(Execution, RastersAndComputesInTurnOnAnImportedImage) {
 TEST_F(Execution, ReportsAPassThatBindsTheWrongThing) {
     const ImageHandle image = graph.create_image(square("image"));
     graph.export_image(image);
-    graph.add_pass("broken", PassKind::compute, [&](PassBuilder& p) { p.write(image, Usage::storage_write); },
-                   [this](PassContext& context) {
-                       context.commands.dispatch(compute("fill.comp"), glm::vec4(0), {}, {1, 1, 1});
-                   });
+    graph.add_pass(
+        "broken", PassKind::compute, [&](PassBuilder& p) { p.write(image, Usage::storage_write); },
+        [this](PassContext& context) {
+            context.commands.dispatch(compute("fill.comp"), glm::vec4(0), {}, {1, 1, 1});
+        });
     Executor executor(device());
     expect_ok(executor.set_graph(graph));
     auto commands = value_of(device().begin_commands("frame"));
