@@ -146,9 +146,13 @@ ObjMaterials read_obj_materials(const MtlReader& reader, const std::filesystem::
     }
     result.textures = set.build();
     for (std::size_t i = 0; i < result.materials.size(); ++i)
-        for (const auto& [slot, texture] : result.slots[i])
-            if (slot == &Material::base_color_texture && result.materials[i].alpha_mode == AlphaMode::opaque)
-                result.materials[i].alpha_mode = alpha_mode_of(result.textures[std::size_t(texture)]);
+        for (const auto& [slot, number] : result.slots[i]) {
+            Material& material = result.materials[i];
+            if (slot != &Material::base_color_texture || material.alpha_mode != AlphaMode::opaque) continue;
+            Texture& texture = result.textures[std::size_t(number)];
+            material.alpha_mode = alpha_mode_of(texture);
+            if (material.alpha_mode == AlphaMode::mask) build_mip_chain(texture, material.alpha_cutoff);
+        }
     const auto say = [&](bool happened, const char* text) {
         if (happened) warnings.push_back({path.string(), text});
     };

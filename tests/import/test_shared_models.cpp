@@ -75,8 +75,7 @@ TEST_P(SharedModel, PeakMemoryStaysBelowThreeTimesWhatIsDecoded) {
     RecordProperty("peak_over_decoded_percent", int(100 * peak / decoded));
 }
 
-// sponza.glb: 57 images of which 23 occlusion-roughness-metallic ones each serve two references; the
-// helmet packs occlusion with roughness and metal.
+// The helmet's five pictures are four textures: its occlusion is packed with roughness and metal.
 INSTANTIATE_TEST_SUITE_P(Import, SharedModel,
                          testing::Values(Expected{"models/car.glb", 145917, 0, 46, 45, 8},
                                          Expected{"models/damaged-helmet.glb", 15452, 0, 1, 1, 4},
