@@ -208,10 +208,10 @@ Result<void> FrameRenderer::build_frame_graph() {
     if (!lists) return tl::unexpected(lists.error());
     auto visibility = passes::add_visibility(graph, pipelines_, inputs_, camera_view_, *lists, extent);
     if (!visibility) return tl::unexpected(visibility.error());
-    auto picture = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, extent);
+    auto picture = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, extent, wanted_.aov);
     if (!picture) return tl::unexpected(picture.error());
     graph::BufferHandle fragments;
-    if (wanted_.blended) {
+    if (wanted_.blended && !wanted_.aov) {
         fragments = graph.import_buffer(fragments_.description());
         if (auto done = passes::add_blend(graph, pipelines_, inputs_, lighting_, camera_view_, *lists, *visibility, maps,
                                           fragments, *picture, extent); !done)
@@ -300,6 +300,7 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
 }
 
 Result<void> FrameRenderer::render(const Camera& camera, const FrameSample& sample, PassTimes* times) {
+    wanted_.aov = sample.aov != shading::frame_aov_none;
     if (auto done = prepare(); !done) return done;
     inputs_.draw_calls = 0;
     for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch)

@@ -27,13 +27,13 @@ struct AovKind {
     const char* name;
     std::uint32_t code;
     int channels;
-    bool single_sample;  // a mean over a pixel would mix surfaces: taken at its centre
+    bool over_hits;  // the mean over what was hit alone; else nothing counts as 0
 };
 constexpr std::array<AovKind, 6> aov_kinds{{{"albedo", shading::frame_aov_albedo, 3, false},
                                             {"normal", shading::frame_aov_normal, 3, false},
                                             {"depth", shading::frame_aov_depth, 1, true},
                                             {"position", shading::frame_aov_position, 3, true},
-                                            {"direct", shading::frame_aov_direct, 3, false},
+                                            {"direct", shading::frame_aov_none, 3, false},
                                             {"indirect", shading::frame_aov_indirect, 3, false}}};
 
 Result<AovKind> find_aov(const std::string& name) {
@@ -49,10 +49,13 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-Image image_of(const std::vector<float>& rgba, int width, int height, int channels, float scale) {
-    Image image(width, height, channels);
-    for (std::size_t pixel = 0; pixel < rgba.size() / 4; ++pixel)
-        for (int c = 0; c < channels; ++c) image.pixels[pixel * channels + c] = rgba[pixel * 4 + c] * scale;
+Image image_of(const std::vector<float>& sum, int width, int height, const AovKind& kind, int samples) {
+    Image image(width, height, kind.channels);
+    for (std::size_t pixel = 0; pixel < sum.size() / 4; ++pixel) {
+        const float hits = sum[pixel * 4 + 3];
+        const float count = kind.over_hits ? std::max(hits, 1.0f) : static_cast<float>(samples);
+        for (int c = 0; c < kind.channels; ++c) image.pixels[pixel * kind.channels + c] = sum[pixel * 4 + c] / count;
+    }
     return image;
 }
 
@@ -100,7 +103,7 @@ struct RealtimeRenderer::State {
     /// The mean of `count` samples of one AOV (or of the radiance).
     Result<Image> accumulate(const Camera& camera, const RealtimeOptions& options, const AovKind& kind,
                              TimeSeries* series, const Progress& progress) {
-        const int count = kind.single_sample ? 1 : std::max(1, options.samples);
+        const int count = std::max(1, options.samples);
         for (int repeat = 0; repeat < most_overflow_repeats; ++repeat) {
             int done = 0;
             for (; done < count; ++done) {
@@ -125,7 +128,7 @@ struct RealtimeRenderer::State {
             if (*grown) continue;
             auto sum = frames->read_sum();
             if (!sum) return tl::unexpected(sum.error());
-            return image_of(*sum, options.width, options.height, kind.channels, 1.0f / static_cast<float>(std::max(1, done)));
+            return image_of(*sum, options.width, options.height, kind, std::max(1, done));
         }
         return fail("", "more blended surfaces overlap in this picture than there is room for");
     }

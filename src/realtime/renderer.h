@@ -40,6 +40,8 @@ struct RealtimeOptions {
     std::string gi = "none";
     bool environment = true;    ///< false: the sky gives no light and is black
     int frames_timed = 0;       ///< > 0: time this many frames after warm-up
+    /// albedo normal depth position direct indirect: depth is the distance along the view axis in metres; depth
+    /// and position are means over what was hit (0 where nothing was), the others box-filtered like the picture.
     std::vector<std::string> aovs;
 };
 struct PassTime {

@@ -55,8 +55,7 @@ SHADING_CONST uint frame_aov_albedo = 1u;
 SHADING_CONST uint frame_aov_normal = 2u;
 SHADING_CONST uint frame_aov_depth = 3u;
 SHADING_CONST uint frame_aov_position = 4u;
-SHADING_CONST uint frame_aov_direct = 5u;
-SHADING_CONST uint frame_aov_indirect = 6u;
+SHADING_CONST uint frame_aov_indirect = 5u;
 
 SHADING_CONST uint shadow_filter_nearest = 0u;  // the texel grid moves between samples and the mean filters
 SHADING_CONST uint shadow_filter_percentage_closer = 1u;

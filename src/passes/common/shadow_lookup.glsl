@@ -6,6 +6,7 @@
 // surface rises towards the light, it is not.
 #ifndef HELIODON_SHADOW_LOOKUP_GLSL
 #define HELIODON_SHADOW_LOOKUP_GLSL
+#extension GL_EXT_control_flow_attributes : require
 #include "passes/common/scene_tables.glsl"
 
 layout(set = 0, binding = 9, std430) readonly buffer ShadowViews { ShadowViewData shadow_views[]; };
@@ -72,14 +73,19 @@ float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode)
     const ReceiverPlane plane = receiver_plane(view, point, normal);
     if (any(greaterThan(abs(plane.at), vec2(1.0f)))) return 1.0f;  // outside what the light's map covers
     const vec2 position = (plane.at * vec2(0.5f, -0.5f) + 0.5f) * float(size);
-    if (filter_mode == shadow_filter_nearest) return shadow_tap(view, plane, ivec2(floor(position)), position, size);
-    // Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels.
-    const ivec2 first = ivec2(floor(position - 0.5f));
-    const vec2 weight = position - 0.5f - vec2(first);
-    const float upper = mix(shadow_tap(view, plane, first, position, size), shadow_tap(view, plane, first + ivec2(1, 0), position, size), weight.x);
-    const float lower = mix(shadow_tap(view, plane, first + ivec2(0, 1), position, size),
-                          shadow_tap(view, plane, first + ivec2(1, 1), position, size), weight.x);
-    return mix(upper, lower, weight.y);
+    const bool nearest = filter_mode == shadow_filter_nearest;
+    // Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels, or the
+    // one where the receiver falls.
+    const ivec2 first = ivec2(floor(nearest ? position : position - 0.5f));
+    const vec2 weight = nearest ? vec2(0.0f) : position - 0.5f - vec2(first);
+    const int taps = nearest ? 1 : 4;
+    float lit = 0.0f;
+    [[dont_unroll]] for (int i = 0; i < taps; ++i) {
+        const ivec2 corner = ivec2(i & 1, i >> 1);
+        const vec2 share = mix(1.0f - weight, weight, vec2(corner));
+        lit += share.x * share.y * shadow_tap(view, plane, first + corner, position, size);
+    }
+    return lit;
 }
 
 /// Face of a cube of views: +X −X +Y −Y +Z −Z, by the major axis.

@@ -4,29 +4,25 @@
 #include "passes/common/lighting.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+// Pictures of something else than radiance have a pipeline of their own, so that the common one stays small.
+layout(constant_id = 0) const bool draws_aov = false;
 layout(set = 0, binding = 8, std430) readonly buffer Frame_ { FrameData frame; };
 layout(set = 0, binding = 12) uniform usampler2D visibility;
 layout(set = 0, binding = 13, rgba32f) uniform writeonly image2D contribution;
 
 vec4 background(vec3 direction) {
-    if (frame.aov == frame_aov_depth) return vec4(vec3(uintBitsToFloat(0x7f800000u)), 1.0f);
-    const bool radiance = frame.aov == frame_aov_none || frame.aov == frame_aov_direct;
-    if (!radiance || frame.batch != 0u || frame.sky_enabled == 0u) return vec4(0.0f);
+    if (draws_aov || frame.batch != 0u || frame.sky_enabled == 0u) return vec4(0.0f);
     return vec4(sky_seen(normalize(direction)), 0.0f);
 }
 
 vec3 value_of(SurfacePoint point, uint pixel_seed) {
+    if (!draws_aov) return surface_radiance(point, frame, pixel_seed);
     switch (frame.aov) {
-        case frame_aov_albedo: {
-            const BsdfLobes lobes = bsdf_prepare(point.material.surface, to_local(point.frame, point.wo));
-            return bsdf_diffuse_albedo_prepared(point.material.surface, lobes) +
-                   bsdf_specular_albedo_prepared(point.material.surface, lobes) + vec3(bsdf_coat_albedo_prepared(lobes));
-        }
+        case frame_aov_albedo: return point.material.surface.base_color;
         case frame_aov_normal: return point.frame.normal;
         case frame_aov_depth: return vec3(dot(point.position - frame.position, frame.forward));
         case frame_aov_position: return point.position;
-        case frame_aov_indirect: return vec3(0.0f);
-        default: return surface_radiance(point, frame, pixel_seed);
+        default: return vec3(0.0f);  // indirect light
     }
 }
 

@@ -4,8 +4,8 @@ namespace heliodon::passes {
 
 Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                      const LightingInputs& lighting, const Visibility& visibility,
-                                     const ShadowMaps& shadow_maps, VkExtent2D extent) {
-    auto pipeline = pipelines.compute("passes/shade/shade.comp");
+                                     const ShadowMaps& shadow_maps, VkExtent2D extent, bool aov) {
+    auto pipeline = pipelines.compute("passes/shade/shade.comp", {{0, aov ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     const graph::ImageHandle picture = graph.create_image(
         {.name = "radiance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {extent.width, extent.height, 1}});

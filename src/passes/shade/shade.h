@@ -15,9 +15,9 @@ struct LightingInputs {
 };
 
 /// Lights the visibility buffer in compute: the batch's lights with their shadows, emission, sky. Returns the
-/// picture, RGBA32F radiance in cd/m² (or the AOV that FrameData asks for), alpha = coverage.
+/// picture, RGBA32F radiance in cd/m², alpha = coverage; with `aov` what FrameData::aov asks for instead.
 [[nodiscard]] Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                                    const LightingInputs& lighting, const Visibility& visibility,
-                                                   const ShadowMaps& shadow_maps, VkExtent2D extent);
+                                                   const ShadowMaps& shadow_maps, VkExtent2D extent, bool aov);
 
 }  // namespace heliodon::passes
