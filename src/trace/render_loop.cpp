@@ -153,8 +153,10 @@ Picture render_picture(const CpuKernel& shared_kernel, const EmbreeScene& scene,
     Picture picture;
     int done = 0;
     run_on_threads(options.threads, [&] {
-        // Whole passes over the picture: one sample each against the clock, else about a hundred passes.
-        const int step = options.seconds ? 1 : std::max(1, options.samples_per_pixel / 100);
+        // Whole passes over the picture: one sample each against the clock, else so many that a pass is some
+        // quarter million paths, after which the caller hears of it and may stop the work.
+        const std::size_t pixels = sums.size();
+        const int step = options.seconds ? 1 : static_cast<int>(std::max<std::size_t>(1, (std::size_t{1} << 18) / pixels));
         const auto finished = [&] {
             return options.seconds ? done > 0 && elapsed() >= *options.seconds : done >= options.samples_per_pixel;
         };

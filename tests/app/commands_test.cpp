@@ -58,6 +58,17 @@ TEST_F(Commands, TheSameCommandGivesTheSamePictureWhateverTheThreadCount) {
     EXPECT_NE(read_picture(folder() / "a.exr")->image.pixels, read_picture(folder() / "c.exr")->image.pixels);
 }
 
+TEST_F(Commands, AnInterruptedRenderWritesNothing) {
+    for (const std::string engine : {"path", "realtime"}) {
+        const Ended ended = run(
+            {"render", "s.heliodon.json", "--engine", engine, "--spp", "10000000", "--size", "64x64", "-o", "a.exr"},
+            "timeout --foreground --preserve-status --signal INT 2");
+        EXPECT_EQ(ended.code, 130) << engine << ended.error;
+        EXPECT_EQ(ended.error, "heliodon: interrupted\n");
+        EXPECT_EQ(files(), std::vector<std::string>{"s.heliodon.json"});
+    }
+}
+
 TEST_F(Commands, LayersAreWrittenIntoTheExr) {
     const Ended ended = render({"--engine", "path", "--aov", "albedo,depth", "-o", "a.exr"});
     ASSERT_EQ(ended.code, 0) << ended.error;

@@ -64,10 +64,10 @@ protected:
         return names;
     }
 
-    /// Starts `heliodon ARGUMENTS` in the folder.
-    [[nodiscard]] Ended run(const std::vector<std::string>& arguments) const {
+    /// Starts `heliodon ARGUMENTS` in the folder, by way of `launcher` (a shell command that takes a command).
+    [[nodiscard]] Ended run(const std::vector<std::string>& arguments, const std::string& launcher = "") const {
         const std::filesystem::path output = folder_.string() + ".out", error = folder_.string() + ".err";
-        std::string command = "cd " + quoted(folder_.string()) + " && " + quoted(HELIODON_PROGRAM);
+        std::string command = "cd " + quoted(folder_.string()) + " && " + launcher + " " + quoted(HELIODON_PROGRAM);
         for (const std::string& argument : arguments) command += " " + quoted(argument);
         const int status =
             std::system((command + " >" + quoted(output.string()) + " 2>" + quoted(error.string())).c_str());

@@ -54,9 +54,8 @@ int run(int argc, char** argv) {
         check_command_name(argc, argv);
         app.parse(argc, argv);
         if (const auto done = action(); !done) {
-            if (interrupted()) return exit_interrupted;
             report_error(done.error());
-            return exit_failed;
+            return interrupted() ? exit_interrupted : exit_failed;
         }
         return 0;
     } catch (const CLI::ParseError& error) {
