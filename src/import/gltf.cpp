@@ -4,6 +4,7 @@
 #include <tiny_gltf.h>
 
 #include <cmath>
+#include <utility>
 
 #include "import/import_model.h"
 

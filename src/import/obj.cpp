@@ -4,6 +4,7 @@
 #include <charconv>
 #include <istream>
 #include <unordered_map>
+#include <utility>
 
 #include "core/image_io.h"
 #include "import/import_failure.h"

@@ -1,5 +1,6 @@
 #include "import/obj_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 

@@ -161,7 +161,7 @@ void append_value(std::vector<float>& values, const JsonCursor& cursor, const An
 AnimationChannel read_channel(const JsonCursor& cursor, const Scene& scene) {
     ObjectReader object(cursor);
     AnimationChannel channel;
-    const AnimatedKey& key = read_target(object.require("target"), scene, channel);
+    const AnimatedKey key = read_target(object.require("target"), scene, channel);
     channel.interpolation = read_interpolation(object, key);
     channel.times_s = read_times(object.require("times_s"));
     const JsonCursor values = object.require("values");

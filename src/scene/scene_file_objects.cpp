@@ -1,6 +1,8 @@
 // Shapes, lights and materials.
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "scene/procedural.h"
 #include "scene/scene_file_parts.h"
 

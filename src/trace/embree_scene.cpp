@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 

@@ -1,6 +1,7 @@
 #include "trace/texture_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace heliodon::trace {
 

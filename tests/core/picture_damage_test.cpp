@@ -1,6 +1,7 @@
 // Damaged pictures: whatever the bytes, reading gives a picture of the size it says or one located error.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <random>
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numeric>
 
 #include "gpu_test.h"

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "gpu_test.h"
 
 namespace heliodon::gpu {

@@ -299,7 +299,11 @@ GlbBuilder meshopt_square() {
     std::vector<std::int8_t> oct(16);
     meshopt_encodeFilterOct(oct.data(), 4, 4, 8, filtered_normals.data());
     std::vector<std::uint32_t> exponents(12);
+#if MESHOPTIMIZER_VERSION < 190  // knows only exponents shared by a vector's components
     meshopt_encodeFilterExp(exponents.data(), 4, 12, 15, square_positions.data());
+#else
+    meshopt_encodeFilterExp(exponents.data(), 4, 12, 15, square_positions.data(), meshopt_EncodeExpSharedVector);
+#endif
     const std::vector<unsigned> indices = {0, 1, 2, 0, 2, 3};
     std::vector<unsigned char> triangles(meshopt_encodeIndexBufferBound(6, 4));
     triangles.resize(meshopt_encodeIndexBuffer(triangles.data(), triangles.size(), indices.data(), 6));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "core/image_io.h"
 #include "import/glb_builder.h"

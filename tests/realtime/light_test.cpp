@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "test_scenes.h"

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "import/import.h"
 #include "realtime/range_allocator.h"
 #include "realtime/shadow_plan.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <numbers>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
 #include "shared_data.h"
 

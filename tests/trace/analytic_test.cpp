@@ -2,8 +2,10 @@
 // and closed boxes. HELIODON_VALIDATION_TABLE=1 prints them as the table of docs/validation.md.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "scene_building.h"
 
