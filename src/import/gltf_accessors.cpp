@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -56,6 +57,12 @@ float component_to_float(const std::uint8_t* bytes, ComponentType type, bool nor
 
 }  // namespace
 
+void Document::expect_affordable(std::size_t index, std::string_view json_path) const {
+    constexpr std::size_t most_zeros = std::size_t(1) << 24;  // elements: 256 MiB of four floats each
+    if (!accessors_[index].has_values && accessors_[index].count > most_zeros)
+        refuse(json_path, fmt::format("expected a bufferView behind {} elements, found none", accessors_[index].count));
+}
+
 void Document::read_floats(std::size_t index, int components, float* out, std::string_view json_path) const {
     const Accessor& accessor = accessors_[index];
     const int shared = std::min(components, accessor.components);
@@ -87,6 +94,7 @@ void Document::read_floats(std::size_t index, int components, float* out, std::s
 
 PaddedArray<std::uint32_t> Document::read_indices(std::size_t index) const {
     const Accessor& accessor = accessors_[index];
+    expect_affordable(index, fmt::format("$.accessors[{}]", index));
     PaddedArray<std::uint32_t> indices(accessor.count, 0);
     if (accessor.has_values)
         for (std::size_t i = 0; i < accessor.count; ++i)
@@ -116,9 +124,10 @@ std::vector<std::uint8_t> decode_meshopt(const Document& document, const Json& e
         document.refuse(json_path, fmt::format("byteStride {} does not go with mode {}", stride, mode));
     if (mode == "TRIANGLES" && count % 3 != 0)
         document.refuse(json_path, fmt::format("expected whole triangles, found {} indices", count));
-    // A block of 16 elements takes at least a header bit pair a byte, so that valid data never expands
-    // more than this; it refuses a count that only wants memory.
-    if (count > (std::size_t(1) << 31) || count / 16 > source.size() * 64 + 64)
+    // 16 bytes of vertices take at least a header of two bits, and triangles and indices more, so that valid
+    // data never expands more than this; it refuses a count that only wants memory.
+    constexpr std::size_t most_expansion = 64;
+    if (count / most_expansion > source.size() / stride)
         document.refuse(json_path, fmt::format("{} elements cannot come from {} bytes", count, source.size()));
     std::vector<std::uint8_t> bytes(count * stride);
     const int failed =

@@ -48,6 +48,8 @@ std::optional<AnimationChannel> read_channel(const Document& document, const tin
         document.refuse(
             at, fmt::format("expected {} values of {} components for {} keys, found {} of {}", values, width, keys,
                             document.accessor(output).count, document.accessor(output).components));
+    document.expect_affordable(input, at + ".input");
+    document.expect_affordable(output, at + ".output");
     channel.times_s.resize(keys);
     document.read_floats(input, 1, channel.times_s.data(), at + ".input");
     for (std::size_t i = 1; i < keys; ++i)

@@ -64,6 +64,8 @@ public:
     [[nodiscard]] const BufferView& view(std::size_t index) const { return views_[index]; }
     [[nodiscard]] const Accessor& accessor(std::size_t index) const { return accessors_[index]; }
 
+    /// Refuses, in the name of `json_path`, an accessor that would take gigabytes of zeros without having any bytes.
+    void expect_affordable(std::size_t index, std::string_view json_path) const;
     /// The accessor's elements as floats, `components` an element (the first ones of it, or padded with 0,
     /// the fourth with 1); integers are normalized where the accessor says so. Every value is finite or
     /// `json_path` is refused.

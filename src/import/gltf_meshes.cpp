@@ -24,6 +24,7 @@ public:
         if (extension(primitive, "KHR_draco_mesh_compression")) draco_ = decode_draco(document, primitive, at_);
         const auto position = attribute_accessor("POSITION");
         if (!position) document.refuse(at_ + ".attributes", "expected POSITION");
+        if (!draco_) document.expect_affordable(*position, at_ + ".attributes.POSITION");
         vertex_count_ = draco_ ? draco_->vertex_count : document.accessor(*position).count;
     }
 
@@ -150,12 +151,13 @@ void complete(const MaterialDraft* material, Mesh& mesh, Tally& tally) {
     }
     tally.normals_replaced += repair_normals(mesh);
     for (glm::vec4& tangent : mesh.tangents) {
-        const float length = glm::length(glm::vec3(tangent));
-        if (length < 1e-6f) {
+        const glm::dvec3 along(tangent);
+        const double length = glm::length(along);
+        if (length < 1e-6) {
             mesh.tangents = {};
             break;
         }
-        tangent = glm::vec4(glm::vec3(tangent) / length, tangent.w < 0 ? -1.0f : 1.0f);
+        tangent = glm::vec4(glm::vec3(along / length), tangent.w < 0 ? -1.0f : 1.0f);
     }
     if (material && material->needs_tangents() && mesh.tangents.empty())
         make_tangents(mesh, material->normal_texcoord());

@@ -48,10 +48,11 @@ glm::vec3 face_normal(const Mesh& mesh, std::size_t face) {
 /// The face's angle at one of its corners.
 float corner_angle(const Mesh& mesh, std::size_t corner) {
     const std::size_t face = corner / 3 * 3;
-    const glm::vec3 here = mesh.positions[mesh.indices[corner]];
-    const glm::vec3 u = mesh.positions[mesh.indices[face + (corner + 1) % 3]] - here;
-    const glm::vec3 v = mesh.positions[mesh.indices[face + (corner + 2) % 3]] - here;
-    return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
+    // Double precision: products of very long or very short single-precision edges leave its range.
+    const glm::dvec3 here(mesh.positions[mesh.indices[corner]]);
+    const glm::dvec3 u = glm::dvec3(mesh.positions[mesh.indices[face + (corner + 1) % 3]]) - here;
+    const glm::dvec3 v = glm::dvec3(mesh.positions[mesh.indices[face + (corner + 2) % 3]]) - here;
+    return float(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
 }
 
 glm::vec3 any_perpendicular(glm::vec3 normal) {
@@ -60,8 +61,8 @@ glm::vec3 any_perpendicular(glm::vec3 normal) {
 }
 
 glm::vec3 normalized_or(glm::vec3 vector, glm::vec3 fallback) {
-    const float length = glm::length(vector);
-    return length > 1e-20f ? vector / length : fallback;
+    const double length = glm::length(glm::dvec3(vector));
+    return length > 1e-20 && std::isfinite(length) ? glm::vec3(glm::dvec3(vector) / length) : fallback;
 }
 
 /// The corners that meet at each place, as one list with offsets.
@@ -156,12 +157,12 @@ void make_normals(Mesh& mesh, float crease_rad) {
 }
 
 std::size_t repair_normals(Mesh& mesh) {
-    constexpr float shortest = 1e-6f;
+    constexpr double shortest = 1e-6;
     std::size_t replaced = 0;
     for (glm::vec3& normal : mesh.normals) {
-        const float length = glm::length(normal);
+        const double length = glm::length(glm::dvec3(normal));
         replaced += length < shortest;
-        normal = length < shortest ? glm::vec3(0) : normal / length;
+        normal = length < shortest ? glm::vec3(0) : glm::vec3(glm::dvec3(normal) / length);
     }
     if (replaced == 0) return 0;
     std::vector<glm::vec3> sums(mesh.positions.size(), glm::vec3(0));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 
 #include "core/image_io.h"
@@ -225,6 +226,24 @@ const Damage damages[] = {
              {"buffer", 0}, {"byteLength", 16}, {"byteStride", 256}, {"count", 1u << 31}, {"mode", "ATTRIBUTES"}};
      },
      "$.bufferViews[0].extensions.EXT_meshopt_compression", "cannot come from"},
+    {"meshopt_count_of_gigabytes",
+     [](GlbBuilder& b) {
+         b.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
+             {"buffer", 0}, {"byteLength", 48}, {"byteStride", 256}, {"count", 16384}, {"mode", "ATTRIBUTES"}};
+     },
+     "$.bufferViews[0].extensions.EXT_meshopt_compression", "cannot come from"},
+    {"gigabytes_of_zeros",
+     [](GlbBuilder& b) {
+         b.json["accessors"].push_back({{"componentType", 5126}, {"count", 1u << 30}, {"type", "VEC3"}});
+         b.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = b.json["accessors"].size() - 1;
+     },
+     "$.meshes[0].primitives[0].attributes.POSITION", "expected a bufferView"},
+    {"gigabytes_of_zero_indices",
+     [](GlbBuilder& b) {
+         b.json["accessors"].push_back({{"componentType", 5125}, {"count", 1u << 30}, {"type", "SCALAR"}});
+         b.json["meshes"][0]["primitives"][0]["indices"] = b.json["accessors"].size() - 1;
+     },
+     "$.accessors[", "expected a bufferView"},
     {"animation_sampler",
      [](GlbBuilder& b) {
          b.json["animations"] = {{{"samplers", Json::array()},
