@@ -44,7 +44,7 @@ protected:
     /// HELIODON_TEST_PICTURES names a folder: every picture of a test goes there, to be looked at.
     void save(const Picture& picture) {
         const char* folder = std::getenv("HELIODON_TEST_PICTURES");
-        if (!folder) return;
+        if (!folder || !*folder) return;
         Picture shown = picture;
         for (std::size_t i = 0; i + 2 < shown.image.pixels.size(); i += 3) {
             float* p = &shown.image.pixels[i];
