@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace heliodon::trace {
 namespace {
@@ -25,6 +26,28 @@ shading::PathState begin(CpuKernel& kernel, const Sensor& sensor, float offset_m
                                                   : kernel.path_begin_along(stream, sample, position, direction);
 }
 
+/// Tells of batches as threads end them, and whether to go on.
+class BatchProgress {
+public:
+    BatchProgress(const Progress& progress, std::size_t count) : progress_(progress), count_(count) {}
+
+    void done() {
+        const std::lock_guard lock(mutex_);
+        ++done_;
+        if (progress_ && !stopped_) stopped_ = !progress_(static_cast<double>(done_) / static_cast<double>(count_));
+    }
+    [[nodiscard]] bool stopped() {
+        const std::lock_guard lock(mutex_);
+        return stopped_;
+    }
+
+private:
+    const Progress& progress_;
+    std::size_t count_, done_ = 0;
+    std::mutex mutex_;
+    bool stopped_ = false;
+};
+
 }  // namespace
 
 std::vector<SensorReading> measure_sensors(const Scene& scene, const CpuKernel& shared_kernel,
@@ -35,11 +58,14 @@ std::vector<SensorReading> measure_sensors(const Scene& scene, const CpuKernel& 
     const float offset_m = bounds.empty() ? 0.0f : offset * bounds.diagonal();
     const int samples = std::max(1, (options.samples_per_pixel + batch_count - 1) / batch_count);
     std::vector<SensorReading> readings;
+    BatchProgress batches(progress, batch_count * scene.sensors().size());
     scene.sensors().each([&](SensorId, const Sensor& sensor) {
+        if (batches.stopped()) return;
         const auto index = static_cast<std::uint32_t>(readings.size());
         glm::dvec3 means[batch_count];
         run_on_threads(options.threads, [&] {
             tbb::parallel_for(0, batch_count, [&](int batch) {
+                if (batches.stopped()) return;
                 CpuKernel kernel = shared_kernel;
                 PathCounts counts;
                 glm::dvec3 sum(0);
@@ -50,15 +76,16 @@ std::vector<SensorReading> measure_sensors(const Scene& scene, const CpuKernel& 
                     sum += follow_path(kernel, embree, path, counts).radiance;
                 }
                 means[batch] = sum / static_cast<double>(samples);
+                batches.done();
             });
         });
+        if (batches.stopped()) return;
         glm::dvec3 mean(0);
         for (const glm::dvec3& value : means) mean += value / static_cast<double>(batch_count);
         double squares = 0;
         for (const glm::dvec3& value : means) squares += std::pow(luminance(value) - luminance(mean), 2);
         const double half_width = student_95 * std::sqrt(squares / (batch_count - 1) / batch_count);
         readings.push_back({sensor.name, sensor.type, luminance(mean), mean, half_width});
-        if (progress) progress(static_cast<double>(readings.size()) / static_cast<double>(scene.sensors().size()));
     });
     return readings;
 }

@@ -56,7 +56,7 @@ public:
     [[nodiscard]] Result<Picture> render(const Scene& scene, const Camera& camera, const PathOptions& options,
                                          PathStatistics* statistics = nullptr, const Progress& progress = {});
 
-    /// Every sensor of the scene with its 95 % half-width.
+    /// Every sensor of the scene with its 95 % half-width; those not finished when `progress` asks to stop are left out.
     [[nodiscard]] Result<std::vector<SensorReading>> measure(const Scene& scene, const PathOptions& options,
                                                              const Progress& progress = {});
 
