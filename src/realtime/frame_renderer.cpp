@@ -13,6 +13,7 @@
 #include "passes/cull/cull.h"
 #include "passes/tonemap/tonemap.h"
 #include "passes/visibility/visibility.h"
+#include "realtime/area_light.h"
 #include "realtime/camera_frame.h"
 #include "shading/tables.h"
 
@@ -93,6 +94,9 @@ Result<void> FrameRenderer::plan_lights() {
     plan_ = plan_shadows(gpu_scene_.flat().lights(), shadow_layer_budget(device_, shadow_map_size_));
     planned_lights_ = gpu_scene_.light_revision();
     resident_shadows_ = {};
+    const auto lights = gpu_scene_.flat().lights();
+    has_area_lights_ = std::any_of(plan_.active_lights.begin(), plan_.active_lights.end(),
+                                   [&](std::uint32_t light) { return lights[light].radius > 0; });
     return gpu_scene_.set_light_shadows(plan_.shadow_of_light, plan_.active_lights);
 }
 
@@ -233,13 +237,29 @@ Result<void> FrameRenderer::build_frame_graph() {
     return {};
 }
 
+Result<void> FrameRenderer::place_area_lights(const FrameSample& sample) {
+    const auto lights = gpu_scene_.flat().lights();
+    placed_lights_.assign(lights.begin(), lights.end());
+    if (!has_area_lights_) return {};
+    for (const std::uint32_t index : plan_.active_lights) {
+        shading::LightData& light = placed_lights_[index];
+        if (light.radius <= 0) continue;
+        // Every light goes through its points in an order of its own.
+        light = sample.jitter_shadows ? point_of_area_light(light, sample_position(sample.shadow_index, 0, sample.seed + index + 1))
+                                      : center_of_area_light(light);
+        if (auto done = gpu_scene_.stand_in_for_light(index, light); !done) return done;
+    }
+    return {};
+}
+
 Result<void> FrameRenderer::record_shadows(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
                                            gpu::Timestamps* timestamps) {
     const ShadowKey wanted{gpu_scene_.revision(), batch, sample.shadow_index, sample.jitter_shadows};
     if (wanted == resident_shadows_ && !sample.force_shadows) return {};
     glm::vec2 jitter(0);
     if (sample.jitter_shadows) jitter = sample_position(sample.shadow_index, 0, sample.seed) - 0.5f;
-    const auto views = shadow_views(plan_, plan_.batches[batch], gpu_scene_.flat().lights(), gpu_scene_.bounds(),
+    if (auto done = place_area_lights(sample); !done) return done;
+    const auto views = shadow_views(plan_, plan_.batches[batch], placed_lights_, gpu_scene_.bounds(),
                                     shadow_map_size_, jitter);
     std::vector<shading::ViewData> cull_views;
     for (const shading::ShadowViewData& view : views) cull_views.push_back({view.world_to_clip});

@@ -73,6 +73,8 @@ public:
     [[nodiscard]] gpu::Pipelines& pipelines() { return pipelines_; }
     /// Indirect draws that the last render() recorded.
     [[nodiscard]] std::uint32_t draw_calls() const { return draw_calls_; }
+    /// Whether any light has an extent: its shadow maps then belong to one point of it at a time.
+    [[nodiscard]] bool has_area_lights() const { return has_area_lights_; }
     [[nodiscard]] std::size_t light_batches() const { return plan_.batches.size(); }
 
 private:
@@ -97,6 +99,7 @@ private:
     FrameRenderer(gpu::Device& device, const std::string& shader_directory);
     [[nodiscard]] Result<void> open();
     [[nodiscard]] Result<void> plan_lights();
+    [[nodiscard]] Result<void> place_area_lights(const FrameSample& sample);
     [[nodiscard]] Result<void> prepare();
     [[nodiscard]] Result<void> make_images();
     [[nodiscard]] Result<void> build_shadow_graph();
@@ -113,6 +116,8 @@ private:
     gpu::Timestamps timestamps_;
 
     ShadowPlan plan_;
+    std::vector<shading::LightData> placed_lights_;  // the scene's, those with an extent at one point of it
+    bool has_area_lights_ = false;
     std::uint64_t planned_lights_ = ~0ull, prefiltered_sky_ = ~0ull;
     ShadowKey resident_shadows_;
     int shadow_map_size_ = 2048;

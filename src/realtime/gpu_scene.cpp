@@ -322,6 +322,12 @@ Result<void> GpuScene::set_light_shadows(const std::vector<std::uint32_t>& shado
     return upload_elements<std::uint32_t>(device_, active_lights_, active_lights, all_of(active_lights.size()));
 }
 
+Result<void> GpuScene::stand_in_for_light(std::uint32_t index, const shading::LightData& light) {
+    shading::LightData record = light;
+    record.shadow = light_shadows_[index];
+    return device_.upload(lights_.buffer(), std::span<const shading::LightData>(&record, 1), index * sizeof(record));
+}
+
 void GpuScene::classify() {
     bounds_ = flat_.bounds();
     has_tested_ = has_blended_ = false;

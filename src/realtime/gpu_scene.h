@@ -46,6 +46,8 @@ public:
     /// Writes where a light's shadow views begin (LightData::shadow), and the list of lights that shine.
     [[nodiscard]] Result<void> set_light_shadows(const std::vector<std::uint32_t>& shadow_of_light,
                                                  const std::vector<std::uint32_t>& active_lights);
+    /// Shades with `light` in the place of light `index` until the scene's own is uploaded again.
+    [[nodiscard]] Result<void> stand_in_for_light(std::uint32_t index, const shading::LightData& light);
     /// Bindless slots of the environment's maps, for shading.
     struct SkyMaps {
         std::uint32_t specular = shading::no_texture, irradiance = shading::no_texture;

@@ -69,7 +69,8 @@ Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camer
         sample.count = 0;
         sample.jitter = realtime::sample_position(sample.index, 0, 0) - 0.5f;
         sample.jitter_shadows = state.samples >= filtered_samples;
-        sample.shadow_index = sample.jitter_shadows ? sample.index / samples_per_shadow_grid : 0;
+        const int per_grid = frames.has_area_lights() ? 1 : samples_per_shadow_grid;
+        sample.shadow_index = sample.jitter_shadows ? sample.index / per_grid : 0;
         sample.environment = environment;
         sample.replace = state.samples == 0;
         sample.display_scale = view.exposure / static_cast<float>(state.samples + 1);

@@ -109,8 +109,8 @@ struct RealtimeRenderer::State {
             for (; done < count; ++done) {
                 FrameSample sample = still_sample(options, done, count);
                 if (count == 1) sample.jitter = glm::vec2(0);
-                // Each sample draws anew what blended surfaces let through.
-                if (frames->scene().has_blended()) sample.shadow_index = sample.index;
+                // Each sample draws anew what blended surfaces let through and the point of a light with an extent.
+                if (frames->scene().has_blended() || frames->has_area_lights()) sample.shadow_index = sample.index;
                 sample.aov = kind.code;
                 PassTimes times;
                 const auto begin = std::chrono::steady_clock::now();

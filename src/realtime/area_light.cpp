@@ -1,0 +1,41 @@
+#include "realtime/area_light.h"
+
+#include <cmath>
+
+#include "shading/light.h"
+#include "shading/sampling.h"
+
+namespace heliodon::realtime {
+
+shading::LightData center_of_area_light(shading::LightData light) {
+    light.radius = 0;
+    return light;
+}
+
+shading::LightData point_of_area_light(const shading::LightData& light, glm::vec2 u) {
+    if (light.radius <= 0) return light;
+    shading::LightData point = center_of_area_light(light);
+    if (light.type == shading::light_type_directional) {
+        const float half = std::sin(0.5f * light.radius);
+        const float one_minus_cos = 2 * half * half;
+        const glm::vec3 local = shading::sample_cone(u, one_minus_cos);
+        point.axis = glm::normalize(shading::to_world(shading::frame_from_normal(light.axis), local));
+        // The disc's radiance E/(π sin² α) times its solid angle 2π(1 − cos α) is 2E/(1 + cos α).
+        point.intensity = light.intensity * (2.0f / (2.0f - one_minus_cos));
+        return point;
+    }
+    if (light.type == shading::light_type_point) {
+        const glm::vec3 normal = shading::sample_uniform_sphere(u);
+        point.position = light.position + light.radius * normal;
+        // A sphere's radiance I/(πr²) over its area 4πr², by the cosine at the point.
+        point.type = shading::light_type_lambertian;
+        point.axis = normal;
+        point.intensity = light.intensity * 4.0f;
+        return point;
+    }
+    const glm::vec3 local = shading::sample_cosine_hemisphere(u);
+    point.position = light.position + light.radius * shading::to_world(shading::frame_from_normal(light.axis), local);
+    return point;
+}
+
+}  // namespace heliodon::realtime
