@@ -45,9 +45,13 @@ ReceiverPlane receiver_plane(ShadowViewData view, vec3 point, vec3 normal) {
     return plane;
 }
 
-/// 1 where what is stored at the texel does not stand between the receiver and the light. `position`: the
-/// receiver's own, in texels.
-float shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, vec2 position, int size) {
+const uint tap_lit = 0u;
+const uint tap_blocked = 1u;
+const uint tap_beyond = 2u;  // the map looks past the receiver's edge there and knows nothing of it
+
+/// Whether what is stored at the texel stands between the receiver and the light. `position`: the receiver's
+/// own, in texels.
+uint shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, vec2 position, int size) {
     // Rows run down from the top, where the second coordinate is +1.
     const vec2 center = ((vec2(texel) + 0.5f) * (2.0f / float(size)) - 1.0f) * vec2(1.0f, -1.0f);
     const ivec3 place = ivec3(clamp(texel, ivec2(0), ivec2(size - 1)), int(view.layer));
@@ -59,12 +63,14 @@ float shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, vec2 pos
     // A grazing plane can pass behind a perspective view's horizon within the texel: what stands there is
     // compared with half the receiver's own depth at least.
     if (view.kind == shadow_kind_perspective) expected = max(expected, 0.5f * plane.own_depth);
-    if (stored <= expected + texel_slope * shadow_snap_texels + rounding) return 1.0f;
+    const float bias = texel_slope * shadow_snap_texels + rounding;
+    if (stored < expected - bias) return tap_beyond;
+    if (stored <= expected + bias) return tap_lit;
 
     const vec2 stored_slope = texelFetch(shadow_slopes, place, 0).rg * stored;
     const float at_receiver = stored + dot(stored_slope, position - (vec2(texel) + 0.5f));
     const float stored_bias = (abs(stored_slope.x) + abs(stored_slope.y)) * shadow_snap_texels;
-    return at_receiver <= plane.own_depth + stored_bias + rounding ? 1.0f : 0.0f;
+    return at_receiver <= plane.own_depth + stored_bias + rounding ? tap_lit : tap_blocked;
 }
 
 float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode) {
@@ -74,18 +80,25 @@ float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode)
     if (any(greaterThan(abs(plane.at), vec2(1.0f)))) return 1.0f;  // outside what the light's map covers
     const vec2 position = (plane.at * vec2(0.5f, -0.5f) + 0.5f) * float(size);
     const bool nearest = filter_mode == shadow_filter_nearest;
-    // Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels, or the
-    // one where the receiver falls.
-    const ivec2 first = ivec2(floor(nearest ? position : position - 0.5f));
-    const vec2 weight = nearest ? vec2(0.0f) : position - 0.5f - vec2(first);
-    const int taps = nearest ? 1 : 4;
+    // Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels, the nearest
+    // first, or that one alone. Texels that look past the edge of the receiver's surface have no say: through
+    // them light would leak along the seams of walls.
+    const ivec2 texel = ivec2(floor(position));
+    const vec2 offset = position - vec2(texel) - 0.5f;
+    const ivec2 side = ivec2(offset.x < 0.0f ? -1 : 1, offset.y < 0.0f ? -1 : 1);
     float lit = 0.0f;
-    [[dont_unroll]] for (int i = 0; i < taps; ++i) {
+    float known = 0.0f;
+    [[dont_unroll]] for (int i = 0; i < 4; ++i) {
         const ivec2 corner = ivec2(i & 1, i >> 1);
-        const vec2 share = mix(1.0f - weight, weight, vec2(corner));
-        lit += share.x * share.y * shadow_tap(view, plane, first + corner, position, size);
+        const vec2 share = mix(1.0f - abs(offset), abs(offset), vec2(corner));
+        const uint tap = shadow_tap(view, plane, texel + corner * side, position, size);
+        if (tap == tap_beyond) continue;
+        const float weight = nearest ? 1.0f : share.x * share.y;
+        known += weight;
+        lit += tap == tap_lit ? weight : 0.0f;
+        if (nearest) break;
     }
-    return lit;
+    return known > 0.0f ? lit / known : 1.0f;
 }
 
 /// Face of a cube of views: +X −X +Y −Y +Z −Z, by the major axis.
