@@ -19,6 +19,9 @@
 #define STBI_NO_HDR
 #define STBI_NO_LINEAR
 #define STBI_NO_GIF
+#define STBI_NO_PSD
+#define STBI_NO_PIC
+#define STBI_NO_PNM
 #include <stb_image.h>
 
 namespace heliodon::import {
@@ -153,6 +156,11 @@ DecodedImage decode_image(const ImageSource& source) {
     if (width > largest_side || height > largest_side)
         refuse(source.where, fmt::format("expected a picture of at most {0} × {0} texels, found {1} × {2}",
                                          largest_side, width, height));
+    // PNG packs densest: deflate expands 1032 times at most (RFC 1951), to eight texels a byte. Of the others stb
+    // would fill what is missing with black, whatever the size.
+    constexpr std::size_t most_texels_a_byte = 8 * 1032;
+    if (std::size_t(width) * std::size_t(height) / most_texels_a_byte > bytes.size())
+        refuse(source.where, fmt::format("{} × {} texels cannot come from {} bytes", width, height, bytes.size()));
     const std::unique_ptr<stbi_uc, StbFree> texels(
         stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4));
     if (!texels) refuse(source.where, fmt::format("the picture is damaged: {}", stbi_failure_reason()));

@@ -151,6 +151,17 @@ TEST(Textures, UnreadableFilesAreLocated) {
     EXPECT_NE(garbage.error().message.find("expected a picture"), std::string::npos);
 }
 
+TEST(Textures, PicturesThatSayMoreThanTheirBytesHoldAreRefused) {
+    const tests::TemporaryFolder folder;
+    // A BMP's headers, 16384 × 16384 texels of 24 bits, and not one of them.
+    std::string bmp("BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\0\x40\0\0\0\x40\0\0\1\0\x18\0", 30);
+    bmp.resize(54, '\0');
+    const auto texture = load_texture(folder.write("huge.bmp", bmp), TextureFormat::srgb8);
+    ASSERT_FALSE(texture);
+    EXPECT_NE(texture.error().text().find("huge.bmp: 16384 × 16384 texels cannot come from 54 bytes"), std::string::npos)
+        << texture.error().text();
+}
+
 TEST(Textures, AlphaTellsMasksFromGlass) {
     const auto with_alpha = [](std::uint8_t alpha) {
         Texture texture = texture_of(4, 1, TextureFormat::srgb8, std::vector<std::uint8_t>(16, 255));
