@@ -158,7 +158,8 @@ TEST(Textures, PicturesThatSayMoreThanTheirBytesHoldAreRefused) {
     bmp.resize(54, '\0');
     const auto texture = load_texture(folder.write("huge.bmp", bmp), TextureFormat::srgb8);
     ASSERT_FALSE(texture);
-    EXPECT_NE(texture.error().text().find("huge.bmp: 16384 × 16384 texels cannot come from 54 bytes"), std::string::npos)
+    EXPECT_NE(texture.error().text().find("huge.bmp: 16384 × 16384 texels cannot come from 54 bytes"),
+              std::string::npos)
         << texture.error().text();
 }
 
