@@ -28,7 +28,7 @@ class DamagedGltf : public testing::TestWithParam<Damage> {};
 TEST_P(DamagedGltf, GivesOneLocatedError) {
     GlbBuilder builder;
     builder.add_square({{"material", 0}});
-    builder.json["materials"] = {Json::object()};
+    builder.json["materials"] = Json::array({Json::object()});
     GetParam().apply(builder);
     Scene scene;
     std::string error;

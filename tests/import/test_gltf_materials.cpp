@@ -29,7 +29,7 @@ struct MaterialFile {
     }
     const Material& load(const Json& material) {
         builder.add_square({{"material", 0}});
-        builder.json["materials"] = {material};
+        builder.json["materials"] = Json::array({material});
         std::string error;
         EXPECT_TRUE(builder.load(scene, &error)) << error;
         return first(scene.materials());
