@@ -30,6 +30,15 @@ VmaAllocationCreateInfo allocation_info(BufferMemory memory) {
     return info;
 }
 
+/// Vulkan forbids even to try to create a larger one.
+VkDeviceSize largest_buffer_bytes(const Device& device) {
+    VkPhysicalDeviceVulkan13Properties properties13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    properties.pNext = &properties13;
+    vkGetPhysicalDeviceProperties2(device.physical_device(), &properties);
+    return properties13.maxBufferSize;
+}
+
 }  // namespace
 
 VkMemoryRequirements Buffer::memory_requirements(const Device& device, const BufferDescription& description) {
@@ -44,6 +53,8 @@ VkMemoryRequirements Buffer::memory_requirements(const Device& device, const Buf
 Result<Buffer> Buffer::create(Device& device, const BufferDescription& description) {
     const std::string where = fmt::format("buffer '{}' of {} bytes", description.name, description.size);
     if (description.size == 0) return fail(where, "expected a size of at least one byte");
+    if (const VkDeviceSize largest = largest_buffer_bytes(device); description.size > largest)
+        return fail(where, fmt::format("the device allows no buffer of more than {} bytes", largest));
     const VkBufferCreateInfo info = create_info(description);
     const VmaAllocationCreateInfo allocation = allocation_info(description.memory);
     Buffer buffer;

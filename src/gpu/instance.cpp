@@ -33,7 +33,11 @@ bool has_layer(const char* name) {
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* instance) {
-    static_cast<Instance*>(instance)->add_validation_message(data->pMessage ? data->pMessage : "");
+    const std::string text = data->pMessage ? data->pMessage : "";
+    const std::string name = data->pMessageIdName ? data->pMessageIdName : "";
+    // Older layers write the message's name into its text, newer ones only beside it.
+    const bool named = text.find(name) != std::string::npos;
+    static_cast<Instance*>(instance)->add_validation_message(named ? text : name + ": " + text);
     return VK_FALSE;
 }
 

@@ -130,11 +130,11 @@ TEST_F(Compute, RefusesAnUploadThatDoesNotFit) {
     EXPECT_EQ(uploaded.error().where, "buffer 'small'");
 }
 
-TEST_F(Compute, SaysHowMuchMemoryWasMissing) {
+TEST_F(Compute, RefusesABufferLargerThanTheDeviceAllows) {
     const auto huge = Buffer::create(device(), {"huge", VkDeviceSize{1} << 50, 0, BufferMemory::device});
     ASSERT_FALSE(huge);
     EXPECT_EQ(huge.error().where, "buffer 'huge' of 1125899906842624 bytes");
-    EXPECT_NE(huge.error().message.find("VK_ERROR_OUT_OF_DEVICE_MEMORY"), std::string::npos) << huge.error().message;
+    EXPECT_NE(huge.error().message.find("allows no buffer of more than"), std::string::npos) << huge.error().message;
 }
 
 TEST_F(Compute, SamplesTexturesBySlotAndTheDefaultElsewhere) {
