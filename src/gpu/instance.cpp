@@ -123,8 +123,10 @@ Result<std::shared_ptr<Instance>> Instance::create(const InstanceSettings& setti
     create.ppEnabledLayerNames = layers.data();
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
-    if (const VkResult result = vkCreateInstance(&create, nullptr, &instance->handle_); result != VK_SUCCESS)
-        return vulkan_failure("", "cannot create a Vulkan instance", result);
+    const VkResult created = vkCreateInstance(&create, nullptr, &instance->handle_);
+    if (created == VK_ERROR_INCOMPATIBLE_DRIVER)
+        return fail("", "no Vulkan driver is installed (Mesa's lavapipe runs on any CPU)");
+    if (created != VK_SUCCESS) return vulkan_failure("", "cannot create a Vulkan instance", created);
     load_core_functions(instance->handle_);
 
     if (settings.validation && debug_names) {
