@@ -3,6 +3,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <cstdlib>
+
 namespace heliodon::editor {
 namespace {
 
@@ -21,6 +23,9 @@ Window::Session::~Session() { glfwTerminate(); }
 void Window::Destroy::operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 
 Result<Window> Window::create(const std::string& title, int width, int height) {
+#ifdef GLFW_PLATFORM_X11  // GLFW 3.4 also knows Wayland, whose library complains on standard error of its absence
+    if (!std::getenv("WAYLAND_DISPLAY")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
     if (!glfwInit()) return fail("window", "no display: " + glfw_message());
     Window window;
     window.session_ = std::make_unique<Session>();
