@@ -3,6 +3,7 @@
 // numbers below are the paper's.
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numbers>
 
 #include "core/metrics.h"
@@ -199,9 +200,9 @@ float redistribute(float distance, float largest) {
 
 }  // namespace
 
-Result<Image> flip_map(const Image& reference, const Image& test, float ev100) {
+Result<Image> flip_map(const Image& reference, const Image& test, float ev100) try {
     if (auto checked = check_comparable(reference, test, ev100); !checked) return tl::unexpected(checked.error());
-    const float exposure = units::exposure_from_ev100(ev100);
+    const float exposure = units::exposure_scale(ev100);
     const Perceived r = perceive(reference, exposure), t = perceive(test, exposure);
     // The largest distance there is, green to blue (section 4.3).
     const float largest =
@@ -221,6 +222,8 @@ Result<Image> flip_map(const Image& reference, const Image& test, float ev100) {
         }
     });
     return map;
+} catch (const std::exception& exception) {
+    return fail("", std::string("cannot compare the pictures: ") + exception.what());
 }
 
 }  // namespace heliodon

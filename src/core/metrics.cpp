@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include "core/picture_checks.h"
@@ -69,7 +70,7 @@ Plane<double> luminance_plane(const Image& image, double exposure) {
     Plane<double> plane(image.width, image.height);
     parallel_rows(image.height, [&](int y) {
         for (int x = 0; x < image.width; ++x) {
-            plane.row(y)[x] = exposure * glm::dot(glm::dvec3(units::luminance_weights), glm::dvec3(image.rgb(x, y)));
+            plane.row(y)[x] = exposure * units::luminance(glm::dvec3(image.rgb(x, y)));
         }
     });
     return plane;
@@ -140,16 +141,16 @@ Result<void> check_comparable(const Image& reference, const Image& test, float e
         if (values == 0 || image->pixels.size() != values) return fail(name, "the picture is empty");
         if (auto checked = check_finite(name, *image); !checked) return checked;
     }
-    const double exposure = 1.0 / units::saturation_luminance_nits(ev100);
+    const double exposure = units::exposure_scale(ev100);
     if (!std::isfinite(exposure) || !(exposure > 0.0))
         return fail("", fmt::format("expected a finite exposure, found EV100 {}", ev100));
     return {};
 }
 
-Result<Metrics> compare(const Image& reference, const Image& test, float ev100) {
+Result<Metrics> compare(const Image& reference, const Image& test, float ev100) try {
     const Result<Image> flip = flip_map(reference, test, ev100);
     if (!flip) return tl::unexpected(flip.error());
-    const double exposure = 1.0 / units::saturation_luminance_nits(ev100);
+    const double exposure = units::exposure_scale(ev100);
     const ErrorSums sums = sum_errors(reference, test, exposure);
     const double pixels = static_cast<double>(reference.width) * reference.height;
     Metrics metrics;
@@ -166,6 +167,8 @@ Result<Metrics> compare(const Image& reference, const Image& test, float ev100) 
     for (const float error : flip->pixels) flip_sum += error;
     metrics.flip = flip_sum / pixels;
     return metrics;
+} catch (const std::exception& exception) {
+    return fail("", fmt::format("cannot compare the pictures: {}", exception.what()));
 }
 
 Image heatmap(const Image& map) {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <exception>
 #include <utility>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/units.h"
 #include "import/import.h"
 #include "import/mesh_completion.h"
 
@@ -18,7 +20,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double grey_card = 0.18;
 
 double luminance(glm::vec3 rgb) {
-    return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722));
+    return units::luminance(glm::dvec3(rgb));
 }
 
 bool has_lights(const Scene& scene) {
@@ -213,7 +215,8 @@ Result<Scene> model_with_overrides(const std::filesystem::path& path, std::span<
 
 }  // namespace
 
-Result<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides, Warnings& warnings) {
+Result<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,
+                         Warnings& warnings) try {
     if (path.extension() == ".json") {
         Result<Scene> scene = read_scene_file(path, overrides, scene_file_readers(), warnings);
         if (!scene) return scene;
@@ -227,6 +230,8 @@ Result<Scene> load_scene(const std::filesystem::path& path, std::span<const Over
     make_missing_tangents(*scene);
     make_presentable(*scene, path.string(), true, warnings);
     return scene;
+} catch (const std::exception& exception) {
+    return fail(path.string(), exception.what());
 }
 
 }  // namespace heliodon

@@ -4,15 +4,11 @@
 #include <cstring>
 #include <glm/vec4.hpp>
 
+#include "core/units.h"
 #include "import/texture_set.h"
 
 namespace heliodon::import {
 namespace {
-
-/// sRGB transfer function, IEC 61966-2-1:1999, section 5.2.
-float srgb_to_linear(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
 
 std::uint8_t to_byte(float value) {
     return std::uint8_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
@@ -21,7 +17,7 @@ std::uint8_t to_byte(float value) {
 const std::array<float, 256>& srgb_table() {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> values{};
-        for (int i = 0; i < 256; ++i) values[i] = srgb_to_linear(i / 255.0f);
+        for (int i = 0; i < 256; ++i) values[i] = units::srgb_decode(i / 255.0f);
         return values;
     }();
     return table;
@@ -31,7 +27,7 @@ const std::array<float, 256>& srgb_table() {
 std::uint8_t srgb_byte(float linear) {
     static const std::array<float, 255> edges = [] {
         std::array<float, 255> values{};
-        for (int i = 0; i < 255; ++i) values[i] = srgb_to_linear((i + 0.5f) / 255.0f);
+        for (int i = 0; i < 255; ++i) values[i] = units::srgb_decode((i + 0.5f) / 255.0f);
         return values;
     }();
     return std::uint8_t(std::upper_bound(edges.begin(), edges.end(), linear) - edges.begin());

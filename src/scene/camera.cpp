@@ -2,12 +2,13 @@
 
 #include <cmath>
 
+#include "core/units.h"
+
 namespace heliodon {
 
 float Camera::ev100() const {
     if (ev100_override) return *ev100_override;
-    // ISO 2720:1974, exposure value referred to ISO 100.
-    return std::log2(aperture_f * aperture_f / shutter_s * 100.0f / iso);
+    return units::ev100_from_camera(aperture_f, shutter_s, iso);
 }
 
 glm::mat4 Camera::world_to_view() const {

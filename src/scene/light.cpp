@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/units.h"
+
 namespace heliodon {
 
 double flux_per_candela(const Light& light) {
@@ -23,8 +25,7 @@ double flux_per_candela(const Light& light) {
 }
 
 double flux_lm(const Light& light) {
-    // Luminance weights of Rec. 709 (ITU-R BT.709-6, item 3.2).
-    return glm::dot(glm::dvec3(light.intensity), glm::dvec3(0.2126, 0.7152, 0.0722)) * flux_per_candela(light);
+    return units::luminance(glm::dvec3(light.intensity)) * flux_per_candela(light);
 }
 
 }  // namespace heliodon

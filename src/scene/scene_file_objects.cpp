@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "core/units.h"
 #include "scene/procedural.h"
 #include "scene/scene_file_parts.h"
 
@@ -84,7 +85,7 @@ glm::vec3 read_intensity_cd(ObjectReader& object, const Light& light) {
         throw Refusal{color->path(), "expected color beside flux_lm alone, found it with intensity_cd"};
     if (intensity) return intensity->number_or_vector(not_negative);
     const glm::dvec3 rgb = color ? color->vector(not_negative) : glm::vec3(1);
-    const double luminance = glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));  // ITU-R BT.709-6, item 3.2
+    const double luminance = units::luminance(rgb);
     if (!(luminance > 0)) color->refuse("a colour that is not black");
     const glm::vec3 result(rgb / luminance * (flux->number(not_negative) / flux_per_candela(light)));
     if (!(glm::max(result.x, glm::max(result.y, result.z)) <= std::numeric_limits<float>::max()))

@@ -1,8 +1,13 @@
 // Frames and the warps from the unit square to directions, each with its density per steradian.
 #ifndef HELIODON_SHADING_SAMPLING_H
 #define HELIODON_SHADING_SAMPLING_H
+#include "core/units.h"
 #include "shading/language.h"
 SHADING_BEGIN
+
+#ifdef __cplusplus
+using units::luminance;
+#endif
 
 SHADING_CONST float pi = 3.14159265358979f;
 SHADING_CONST float inverse_pi = 0.318309886183791f;
@@ -98,9 +103,6 @@ SHADING_FN float power_heuristic(float pdf, float other_pdf) {
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-SHADING_FN float luminance(vec3 c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
 SHADING_FN float max_component(vec3 c) {
     return max(c.x, max(c.y, c.z));
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/units.h"
+
 namespace heliodon::trace {
 namespace {
 
@@ -12,9 +14,8 @@ using shading::KernelEmitter;
 
 constexpr double pi = std::numbers::pi;
 
-// Luminance weights of Rec. 709 (ITU-R BT.709-6, item 3.2).
 double luminance(const glm::vec3& rgb) {
-    return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722));
+    return units::luminance(glm::dvec3(rgb));
 }
 
 /// Emitters with their flux in lumen, grouped: one group a light, an emissive instance or the sky.

@@ -6,16 +6,13 @@
 #include <cmath>
 #include <mutex>
 
+#include "core/units.h"
+
 namespace heliodon::trace {
 namespace {
 
 constexpr int batch_count = 32;
 constexpr double student_95 = 2.0395134;  // two-sided 95 % quantile of Student's t, 31 degrees of freedom
-
-// Luminance weights of Rec. 709 (ITU-R BT.709-6, item 3.2).
-double luminance(const glm::dvec3& rgb) {
-    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
 
 shading::PathState begin(CpuKernel& kernel, const Sensor& sensor, float offset_m, std::uint32_t stream,
                          std::uint32_t sample) {
@@ -83,9 +80,9 @@ std::vector<SensorReading> measure_sensors(const Scene& scene, const CpuKernel& 
         glm::dvec3 mean(0);
         for (const glm::dvec3& value : means) mean += value / static_cast<double>(batch_count);
         double squares = 0;
-        for (const glm::dvec3& value : means) squares += std::pow(luminance(value) - luminance(mean), 2);
+        for (const glm::dvec3& value : means) squares += std::pow(units::luminance(value) - units::luminance(mean), 2);
         const double half_width = student_95 * std::sqrt(squares / (batch_count - 1) / batch_count);
-        readings.push_back({sensor.name, sensor.type, luminance(mean), mean, half_width});
+        readings.push_back({sensor.name, sensor.type, units::luminance(mean), mean, half_width});
     });
     return readings;
 }

@@ -1,17 +1,15 @@
 #include "trace/texture_table.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/units.h"
 
 namespace heliodon::trace {
 
 void TextureTable::update(const convert::FlatScene& flat) {
     for (int byte = 0; byte < 256; ++byte) {
-        const double encoded = byte / 255.0;
-        linear_[byte] = static_cast<float>(encoded);
-        // IEC 61966-2-1:1999, the inverse of the sRGB transfer function.
-        srgb_[byte] =
-            static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+        linear_[byte] = static_cast<float>(byte) / 255.0f;
+        srgb_[byte] = units::srgb_decode(linear_[byte]);
     }
     entries_.assign(flat.textures().size(), {});
     for (std::size_t i = 0; i < entries_.size(); ++i) {
