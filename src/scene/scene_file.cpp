@@ -65,6 +65,7 @@ private:
     void load_textures();
     void load_sky_image();
     void load_models();
+    void blend_where_opacity_moves(const Animation& animation);
 
     [[nodiscard]] std::filesystem::path resolve(const std::filesystem::path& file) const {
         return file.empty() ? file : base_ / file;
@@ -97,6 +98,7 @@ Scene Reader::read(const Json& document) {
         for (const JsonCursor& cursor : animations->elements()) {
             Animation animation = read_animation(cursor, scene_);
             names.add(animation.name, cursor);
+            blend_where_opacity_moves(animation);
             scene_.add_animation(std::move(animation));
         }
     }
@@ -230,6 +232,18 @@ void Reader::load_models() {
         if (!placed) throw Refusal{job.path, placed.error().text()};
     }
     placement.remove_replaced_materials();
+}
+
+/// An opaque material has no use for an opacity; one whose opacity is animated blends.
+void Reader::blend_where_opacity_moves(const Animation& animation) {
+    for (const AnimationChannel& channel : animation.channels) {
+        if (channel.property != AnimatedProperty::material_opacity) continue;
+        const MaterialId id = std::get<MaterialId>(channel.target);
+        Material material = *scene_.materials().find(id);
+        if (material.alpha_mode != AlphaMode::opaque) continue;
+        material.alpha_mode = AlphaMode::blend;
+        scene_.set_material(id, std::move(material));
+    }
 }
 
 bool is_at_or_below(std::string_view path, std::string_view ancestor) {

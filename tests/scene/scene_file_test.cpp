@@ -268,6 +268,17 @@ TEST(SceneFile, AModelNamedTwiceIsReadOnceAndShared) {
     EXPECT_EQ(scene->nodes().find(leaf("b"))->transform.translation, glm::vec3(2, 0, 0)) << "the copy is animated too";
 }
 
+TEST(SceneFile, MakesAMaterialBlendWhoseOpacityIsAnimated) {
+    const auto mode = [](const std::string& keys) {
+        const Scene scene = parsed(R"({"heliodon": 1, "materials": {"veil": {)" + keys + R"(}},
+          "animations": [{"name": "fade", "channels": [
+            {"target": "materials.veil.opacity", "times_s": [0, 1], "values": [1, 0]}]}]})");
+        return scene.materials().find(scene.find_material("veil"))->alpha_mode;
+    };
+    EXPECT_EQ(mode(""), AlphaMode::blend);
+    EXPECT_EQ(mode(R"("alpha_mode": "mask")"), AlphaMode::mask) << "a mask has its own use for opacity";
+}
+
 TEST(SceneFile, ReadsAnimationOfEveryNamedValue) {
     Scene scene = parsed(R"({"heliodon": 1, "cameras": [{"name": "main"}], "materials": {"paint": {}},
       "sky": {"model": "constant", "luminance_nits": 1},
