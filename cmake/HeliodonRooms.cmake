@@ -21,6 +21,9 @@ function(heliodon_sanitize TARGET)
   if(HELIODON_SANITIZE)
     target_compile_options(${TARGET} PUBLIC -fsanitize=${HELIODON_SANITIZE} -fno-omit-frame-pointer -g)
     target_link_options(${TARGET} PUBLIC -fsanitize=${HELIODON_SANITIZE})
+    if(HELIODON_SANITIZE MATCHES thread)  # see tests/sanitizers/tbb/parallel_for.h
+      target_include_directories(${TARGET} BEFORE PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/tests/sanitizers>)
+    endif()
   endif()
 endfunction()
 
