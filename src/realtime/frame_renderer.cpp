@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <map>
 
@@ -72,7 +73,7 @@ Result<void> FrameRenderer::open() {
     timestamps_ = std::move(*timestamps);
     auto nearest = device_.sampler(gpu::SamplerDescription::nearest_clamp());
     if (!nearest) return tl::unexpected(nearest.error());
-    lighting_ = {&frame_buffer_, &shadow_views_, &shading_tables_, *nearest};
+    lighting_ = {&frame_buffer_, &shadow_views_, &shading_tables_, *nearest, &visible_lights_.buffer()};
     shadow_inputs_.views = &shadow_cull_views_;
     return {};
 }
@@ -97,7 +98,20 @@ Result<void> FrameRenderer::plan_lights() {
     const auto lights = gpu_scene_.flat().lights();
     has_area_lights_ = std::any_of(plan_.active_lights.begin(), plan_.active_lights.end(),
                                    [&](std::uint32_t light) { return lights[light].radius > 0; });
+    if (auto done = upload_visible_lights(); !done) return done;
     return gpu_scene_.set_light_shadows(plan_.shadow_of_light, plan_.active_lights);
+}
+
+Result<void> FrameRenderer::upload_visible_lights() {
+    std::vector<shading::LightData> visible;
+    for (const std::uint32_t index : plan_.active_lights)
+        if (const shading::LightData& light = gpu_scene_.flat().lights()[index]; light.radius > 0) visible.push_back(light);
+    const std::array<std::uint32_t, 4> header{static_cast<std::uint32_t>(visible.size())};
+    const std::uint64_t bytes = sizeof(header) + visible.size() * sizeof(shading::LightData);
+    if (auto done = visible_lights_.reserve(device_, bytes, 0); !done) return done;
+    if (auto done = device_.upload(visible_lights_.buffer(), std::span<const std::uint32_t>(header)); !done) return done;
+    if (visible.empty()) return {};
+    return device_.upload(visible_lights_.buffer(), std::span<const shading::LightData>(visible), sizeof(header));
 }
 
 Result<void> FrameRenderer::resize(int width, int height, bool display) {

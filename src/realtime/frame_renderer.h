@@ -99,6 +99,7 @@ private:
     FrameRenderer(gpu::Device& device, const std::string& shader_directory);
     [[nodiscard]] Result<void> open();
     [[nodiscard]] Result<void> plan_lights();
+    [[nodiscard]] Result<void> upload_visible_lights();
     [[nodiscard]] Result<void> place_area_lights(const FrameSample& sample);
     [[nodiscard]] Result<void> prepare();
     [[nodiscard]] Result<void> make_images();
@@ -133,6 +134,7 @@ private:
 
     gpu::Buffer frame_buffer_, camera_view_, shadow_cull_views_, shadow_views_, shading_tables_, fragments_;
     gpu::Image shadow_depth_, shadow_slope_, sum_, display_, sky_specular_, sky_irradiance_;
+    GrowingBuffer visible_lights_{"visible lights", 0};
     std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_;
     std::deque<gpu::TimelineValue> in_flight_;
 };

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "gpu/bindless_textures.h"
+#include "realtime/vertex_packing.h"
 
 namespace heliodon::realtime {
 namespace {
@@ -77,10 +78,12 @@ gpu::SamplerDescription sampler_of(const Texture& texture) {
     return sampler;
 }
 
-/// Floats that a mesh's attributes take in the vertex buffer.
-std::uint64_t attribute_floats(const Mesh& mesh) {
-    return 3 * mesh.positions.size() + 3 * mesh.normals.size() + 4 * mesh.tangents.size() +
-           2 * mesh.texcoords[0].size() + 2 * mesh.texcoords[1].size() + 4 * mesh.colors.size();
+/// 32-bit words that a mesh's attributes take in the vertex buffer.
+std::uint64_t attribute_words(const Mesh& mesh, bool compact) {
+    std::uint64_t words = 3 * mesh.positions.size() + 4 * mesh.colors.size();
+    words += (compact ? 1 : 3) * mesh.normals.size() + (compact ? 1 : 4) * mesh.tangents.size();
+    for (const auto& set : mesh.texcoords) words += compact && packs_texcoords(set) ? 4 + set.size() : 2 * set.size();
+    return words;
 }
 
 }  // namespace
@@ -147,11 +150,11 @@ void GpuScene::release_geometry(std::uint32_t index) {
 }
 
 Result<void> GpuScene::reserve_for(const std::vector<std::uint32_t>& changed) {
-    std::uint64_t floats = 0, index_count = 0;
+    std::uint64_t words = 0, index_count = 0;
     for (const std::uint32_t index : changed) {
         const Geometry* geometry = flat_.geometries()[index];
         if (!geometry) continue;
-        floats += attribute_floats(geometry->mesh);
+        words += attribute_words(geometry->mesh, compact_);
         index_count += geometry->mesh.indices.size();
     }
     const auto grow = [&](GrowingBuffer& buffer, RangeAllocator& ranges, std::uint64_t count) -> Result<void> {
@@ -159,7 +162,7 @@ Result<void> GpuScene::reserve_for(const std::vector<std::uint32_t>& changed) {
         if (free >= count && buffer.size() > 0) return {};
         return grow_ranges(buffer, ranges, count - std::min(count, free));
     };
-    if (auto done = grow(vertices_, vertex_ranges_, floats); !done) return done;
+    if (auto done = grow(vertices_, vertex_ranges_, words); !done) return done;
     return grow(indices_, index_ranges_, index_count);
 }
 
@@ -182,7 +185,7 @@ Result<void> GpuScene::upload_geometry(std::uint32_t index, RealtimeUpdate& upda
     const Mesh& mesh = geometry.mesh;
     if (mesh.indices.empty() || mesh.positions.empty()) return {};
     Allocation allocation;
-    allocation.attributes.size = attribute_floats(mesh);
+    allocation.attributes.size = attribute_words(mesh, compact_);
     allocation.indices.size = mesh.indices.size();
     const auto attributes = allocate(vertices_, vertex_ranges_, allocation.attributes.size);
     if (!attributes) return tl::unexpected(attributes.error());
@@ -206,10 +209,16 @@ Result<void> GpuScene::upload_geometry(std::uint32_t index, RealtimeUpdate& upda
     data.bounds_min = geometry.bounds.min;
     data.bounds_max = geometry.bounds.max;
     data.position_offset = append(mesh.positions);
-    data.normal_offset = append(mesh.normals);
-    data.tangent_offset = append(mesh.tangents);
-    data.texcoord0_offset = append(mesh.texcoords[0]);
-    data.texcoord1_offset = append(mesh.texcoords[1]);
+    data.normal_offset = compact_ ? append(pack_normals(mesh.normals)) : append(mesh.normals);
+    data.tangent_offset = compact_ ? append(pack_tangents(mesh.tangents)) : append(mesh.tangents);
+    data.format = compact_ ? shading::geometry_format_compact_vectors : 0;
+    const auto append_texcoords = [&](const auto& set, std::uint32_t compact_flag) {
+        if (!compact_ || !packs_texcoords(set)) return append(set);
+        data.format |= compact_flag;
+        return append(pack_texcoords(set));
+    };
+    data.texcoord0_offset = append_texcoords(mesh.texcoords[0], shading::geometry_format_compact_texcoord0);
+    data.texcoord1_offset = append_texcoords(mesh.texcoords[1], shading::geometry_format_compact_texcoord1);
     data.color_offset = append(mesh.colors);
     data.first_index = static_cast<std::uint32_t>(allocation.indices.start);
     data.index_count = static_cast<std::uint32_t>(mesh.indices.size());
@@ -353,6 +362,9 @@ Result<RealtimeUpdate> GpuScene::update(const Scene& scene) {
         changes.sky = true;
         light_shadows_.clear();
     }
+    const bool compact = scene.convert_settings().vertex_precision == ConvertSettings::Precision::compact;
+    if (compact != compact_) changes.geometries = all_of(flat_.geometries().size());
+    compact_ = compact;
     // Every table exists, even for an empty scene: descriptors always point at something.
     for (GrowingBuffer* buffer : {&geometries_, &instances_, &materials_, &lights_, &active_lights_})
         if (auto done = buffer->reserve(device_, smallest_buffer_bytes, 0); !done) return tl::unexpected(done.error());

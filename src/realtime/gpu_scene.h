@@ -61,6 +61,8 @@ public:
     /// Whether any visible instance needs the alpha-tested or the blended draw list.
     [[nodiscard]] bool has_tested() const { return has_tested_; }
     [[nodiscard]] bool has_blended() const { return has_blended_; }
+    /// Bytes that the vertices' attributes take on the device.
+    [[nodiscard]] std::uint64_t vertex_bytes() const { return vertex_ranges_.used() * 4; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     /// Goes up whenever an update changed anything; accumulated pictures older than it are stale.
     [[nodiscard]] std::uint64_t revision() const { return revision_; }
@@ -74,7 +76,7 @@ private:
         std::uint64_t start = 0, size = 0;
     };
     struct Allocation {
-        Range attributes, indices;  // floats, indices
+        Range attributes, indices;  // 32-bit words, indices
     };
     struct LoadedTexture {
         gpu::Image image;
@@ -104,6 +106,7 @@ private:
     std::vector<std::uint32_t> light_shadows_;
     SkyMaps sky_maps_;
     Bounds bounds_;
+    bool compact_ = false;  // convert.vertex_precision
     bool has_tested_ = false, has_blended_ = false;
     std::uint64_t revision_ = 0, sky_revision_ = 0, light_revision_ = 0;
 };

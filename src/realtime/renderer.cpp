@@ -232,6 +232,7 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
         else if (auto done = state_->time_frames(camera, options, *statistics); !done) return tl::unexpected(done.error());
         statistics->device = state_->device->info().name;
         statistics->gpu_memory_bytes = state_->device->memory_bytes();
+        statistics->vertex_bytes = frames.scene().vertex_bytes();
         statistics->draw_calls = static_cast<int>(frames.draw_calls());
         statistics->light_batches = static_cast<int>(frames.light_batches());
     }

@@ -53,6 +53,7 @@ struct RealtimeStatistics {
     double gpu_ms_total = 0, cpu_ms = 0;
     std::string device;
     std::uint64_t gpu_memory_bytes = 0;
+    std::uint64_t vertex_bytes = 0;  ///< of them, attributes of vertices (convert.vertex_precision)
     int draw_calls = 0;      ///< indirect draws of one frame, whatever the number of nodes
     int light_batches = 0;   ///< lights whose shadow maps do not fit together are lit in several batches
 };

@@ -1,45 +1,11 @@
-#include "core/metrics.h"
+#include "engine_parity.h"
 #include "import/import.h"
 #include "shared_data.h"
-#include "test_scenes.h"
-#include "trace/path_tracer.h"
 
 namespace heliodon::tests {
 namespace {
 
-/// Direct light of both engines, a small form of the published comparison (512² there).
-class Parity : public RealtimeTest {
-protected:
-    static constexpr int size = 128;
-
-    void compare_engines(const Scene& scene, int samples_per_pixel, double median, double relmse, double flip) {
-        Camera camera;
-        scene.cameras().each([&](CameraId, const Camera& first) { camera = first; });
-        RealtimeOptions options;
-        options.width = options.height = size;
-        options.samples = 64;
-        options.environment = false;
-        const Picture picture = render(scene, camera, options);
-        PathTracer tracer;
-        const auto updated = tracer.update(scene);
-        ASSERT_TRUE(updated) << updated.error().text();
-        PathOptions path;
-        path.width = path.height = size;
-        path.samples_per_pixel = samples_per_pixel;
-        path.max_depth = 1;
-        path.environment = false;
-        const auto reference = tracer.render(scene, camera, path);
-        ASSERT_TRUE(reference) << reference.error().text();
-        const auto metrics = compare(reference->image, picture.image, camera.ev100());
-        ASSERT_TRUE(metrics) << metrics.error().text();
-        EXPECT_LE(metrics->median_relative, median);
-        EXPECT_LE(metrics->relmse, relmse);
-        EXPECT_LE(metrics->flip, flip);
-        RecordProperty("median_relative", std::to_string(metrics->median_relative));
-        RecordProperty("relmse", std::to_string(metrics->relmse));
-        RecordProperty("flip", std::to_string(metrics->flip));
-    }
-};
+using Parity = EngineParity;
 
 TEST_F(Parity, APointLightInTheCornellBoxIsWhatThePathTracerSays) {
     const auto path = shared_path("scenes/cornell-point.heliodon.json");
@@ -47,7 +13,7 @@ TEST_F(Parity, APointLightInTheCornellBoxIsWhatThePathTracerSays) {
     Warnings warnings;
     const auto scene = load_scene(*path, {}, warnings);
     ASSERT_TRUE(scene) << scene.error().text();
-    compare_engines(*scene, 64, 0.0005, 0.0005, 0.005);
+    expect_agreement(*scene, {}, {0.0005, 0.0005, 0.005});
 }
 
 TEST_F(Parity, APointASpotAndADirectionalLightTogetherAreWhatThePathTracerSays) {
@@ -63,7 +29,7 @@ TEST_F(Parity, APointASpotAndADirectionalLightTogetherAreWhatThePathTracerSays) 
     scene->add_node(spot);
     add_sun(*scene, {0.3f, -0.6f, -1}, {40, 50, 60});
     // One light is chosen a sample, which leaves the reference a noise of about a hundredth at this count.
-    compare_engines(*scene, 256, 0.02, 0.001, 0.02);
+    expect_agreement(*scene, {.path_samples = 256}, {0.02, 0.001, 0.02});
 }
 
 TEST_F(Parity, GlossyMetalAndDielectricSpheresAreWhatThePathTracerSays) {
@@ -84,7 +50,7 @@ TEST_F(Parity, GlossyMetalAndDielectricSpheresAreWhatThePathTracerSays) {
     camera.ev100_override = 2.0f;
     scene.add_camera(camera);
     // The spheres are tessellated here and exact there.
-    compare_engines(scene, 64, 0.002, 0.005, 0.01);
+    expect_agreement(scene, {}, {0.002, 0.005, 0.01});
 }
 
 }  // namespace

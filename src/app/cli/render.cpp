@@ -121,6 +121,7 @@ public:
                          {"cpu_ms", numbers.cpu_ms},
                          {"device", numbers.device},
                          {"gpu_memory_bytes", numbers.gpu_memory_bytes},
+                         {"vertex_bytes", numbers.vertex_bytes},
                          {"peak_rss_bytes", peak_rss_bytes()}},
                         std::move(summary)};
     }

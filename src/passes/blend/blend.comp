@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Shades each pixel's blended fragments from back to front over the opaque picture: Porter & Duff 1984, over.
 #include "passes/common/lighting.glsl"
+#include "passes/common/visible_lights.glsl"
 #include "passes/blend/blend_shared.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -45,7 +46,11 @@ void main() {
         const SurfacePoint point = resolve_surface(fragment.instance, fragment.triangle, frame, direction);
         const float opacity = point.material.opacity;
         if (opacity <= 0.0f) continue;
-        value.rgb = mix(value.rgb, surface_radiance(point, frame, pcg_hash(seed + fragment.instance + pcg_hash(fragment.triangle))), opacity);
+        const vec3 radiance = surface_radiance(point, frame, pcg_hash(seed + fragment.instance + pcg_hash(fragment.triangle)));
+        // The picture has all lights that stand before opaque surfaces: those before this one it does not dim.
+        vec3 before = vec3(0.0f);
+        if (frame.batch == 0u) before = lights_seen(frame.position, -point.wo, distance(frame.position, point.position));
+        value.rgb = mix(value.rgb - before, radiance, opacity) + before;
         value.a = mix(value.a, 1.0f, opacity);
     }
     imageStore(contribution, ivec2(pixel), value);

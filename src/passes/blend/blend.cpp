@@ -75,6 +75,7 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
                                                    {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
                                                    {11, *lighting.shading_tables},
+                                                   {16, *lighting.visible_lights},
                                                    {12, context.buffer(fragments)},
                                                    {13, context.buffer(heads)},
                                                    {14, context.image(picture)}});

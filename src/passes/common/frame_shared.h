@@ -7,7 +7,15 @@ SHADING_BEGIN
 
 SHADING_CONST uint no_attribute = 0xffffffffu;
 
-/// Where one geometry lies in the mega buffers: offsets count floats (attributes) or indices.
+// How compact attributes are stored, one 32-bit word a vertex each (realtime/vertex_packing.h).
+SHADING_CONST uint geometry_format_compact_vectors = 1u;  // normals and tangents
+SHADING_CONST uint geometry_format_compact_texcoord0 = 2u;
+SHADING_CONST uint geometry_format_compact_texcoord1 = 4u;
+SHADING_CONST uint compact_normal_zero = 0x80008000u;  // vectors of no length: codes that no direction has
+SHADING_CONST uint compact_tangent_zero = 0x40008000u;
+SHADING_CONST uint compact_tangent_negative = 0x80000000u;  // the bitangent's sign
+
+/// Where one geometry lies in the mega buffers: offsets count 32-bit words (attributes) or indices.
 struct GeometryData {
     vec3 bounds_min;
     uint position_offset;
@@ -19,8 +27,8 @@ struct GeometryData {
     uint color_offset;
     uint first_index;
     uint index_count;  // 0: a hole in the table
-    uint padding0;
-    uint padding1;
+    uint format;       // geometry_format_…
+    uint padding;
 };
 
 /// One camera's frame. A pixel's ray leaves `position` along

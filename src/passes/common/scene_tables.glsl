@@ -2,10 +2,11 @@
 #ifndef HELIODON_SCENE_TABLES_GLSL
 #define HELIODON_SCENE_TABLES_GLSL
 
+#include "shading/octahedral.h"
 #include "shading/scene_data.h"
 #include "passes/common/frame_shared.h"
 
-layout(set = 0, binding = 0, std430) readonly buffer VertexTable { float vertex_table[]; };
+layout(set = 0, binding = 0, std430) readonly buffer VertexTable { uint vertex_table[]; };
 layout(set = 0, binding = 1, std430) readonly buffer IndexTable { uint index_table[]; };
 layout(set = 0, binding = 2, std430) readonly buffer GeometryTable { GeometryData geometry_table[]; };
 layout(set = 0, binding = 3, std430) readonly buffer InstanceTable { InstanceData instance_table[]; };
@@ -20,22 +21,43 @@ layout(set = 0, binding = 7, std430) readonly buffer SkyTable {
     uint sky_specular_levels;
 };
 
+float fetch_float(uint offset) { return uintBitsToFloat(vertex_table[offset]); }
 vec3 fetch_vec3(uint offset, uint vertex) {
     const uint first = offset + 3u * vertex;
-    return vec3(vertex_table[first], vertex_table[first + 1u], vertex_table[first + 2u]);
+    return vec3(fetch_float(first), fetch_float(first + 1u), fetch_float(first + 2u));
 }
 vec2 fetch_vec2(uint offset, uint vertex) {
     const uint first = offset + 2u * vertex;
-    return vec2(vertex_table[first], vertex_table[first + 1u]);
+    return vec2(fetch_float(first), fetch_float(first + 1u));
 }
 vec4 fetch_vec4(uint offset, uint vertex) {
     const uint first = offset + 4u * vertex;
-    return vec4(vertex_table[first], vertex_table[first + 1u], vertex_table[first + 2u], vertex_table[first + 3u]);
+    return vec4(fetch_float(first), fetch_float(first + 1u), fetch_float(first + 2u), fetch_float(first + 3u));
+}
+
+vec3 fetch_normal(GeometryData geometry, uint vertex) {
+    if ((geometry.format & geometry_format_compact_vectors) == 0u) return fetch_vec3(geometry.normal_offset, vertex);
+    const uint word = vertex_table[geometry.normal_offset + vertex];
+    return word == compact_normal_zero ? vec3(0.0f) : octahedral_decode(unpackSnorm2x16(word));
+}
+/// w: the bitangent's sign.
+vec4 fetch_tangent(GeometryData geometry, uint vertex) {
+    if ((geometry.format & geometry_format_compact_vectors) == 0u) return fetch_vec4(geometry.tangent_offset, vertex);
+    const uint word = vertex_table[geometry.tangent_offset + vertex];
+    const float side = (word & compact_tangent_negative) != 0u ? -1.0f : 1.0f;
+    if ((word | compact_tangent_negative) == (compact_tangent_zero | compact_tangent_negative)) return vec4(0.0f, 0.0f, 0.0f, side);
+    const int x = int(word << 16) >> 16;
+    const int y = int(word << 1) >> 17;
+    return vec4(octahedral_decode(vec2(float(x) / 32767.0f, float(y) / 16383.0f)), side);
 }
 /// Coordinate set 0 or 1 of a vertex; (0, 0) where the mesh has none.
 vec2 fetch_texcoord(GeometryData geometry, uint set_index, uint vertex) {
     const uint offset = set_index == 0u ? geometry.texcoord0_offset : geometry.texcoord1_offset;
-    return offset == no_attribute ? vec2(0.0f) : fetch_vec2(offset, vertex);
+    if (offset == no_attribute) return vec2(0.0f);
+    if ((geometry.format & (geometry_format_compact_texcoord0 << set_index)) == 0u) return fetch_vec2(offset, vertex);
+    const vec4 range = fetch_vec4(offset, 0u);  // lowest and step
+    const uint word = vertex_table[offset + 4u + vertex];
+    return range.xy + range.zw * vec2(float(word & 0xffffu), float(word >> 16));
 }
 
 #endif

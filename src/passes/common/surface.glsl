@@ -94,9 +94,9 @@ void set_texture_gradients(MaterialData m, GeometryData geometry, TriangleHit hi
 
 vec3 interpolated_normal(InstanceData instance, GeometryData geometry, TriangleHit hit, vec3 geometric) {
     if (geometry.normal_offset == no_attribute) return geometric;
-    const vec3 n = fetch_vec3(geometry.normal_offset, hit.index.x) * hit.barycentric.x +
-                   fetch_vec3(geometry.normal_offset, hit.index.y) * hit.barycentric.y +
-                   fetch_vec3(geometry.normal_offset, hit.index.z) * hit.barycentric.z;
+    const vec3 n = fetch_normal(geometry, hit.index.x) * hit.barycentric.x +
+                   fetch_normal(geometry, hit.index.y) * hit.barycentric.y +
+                   fetch_normal(geometry, hit.index.z) * hit.barycentric.z;
     const vec3 world = mat3(instance.normal_to_world) * n;
     const float squared = dot(world, world);
     return squared > 0.0f ? world * inversesqrt(squared) : geometric;
@@ -106,9 +106,9 @@ vec3 mapped_normal(InstanceData instance, GeometryData geometry, MaterialData m,
     if (m.normal_texture.texture_index == no_texture && m.bump_texture.texture_index == no_texture) return n;
     vec4 tangent = vec4(0.0f);
     if (geometry.tangent_offset != no_attribute) {
-        const vec4 t0 = fetch_vec4(geometry.tangent_offset, hit.index.x);
-        const vec3 t = t0.xyz * hit.barycentric.x + fetch_vec4(geometry.tangent_offset, hit.index.y).xyz * hit.barycentric.y +
-                       fetch_vec4(geometry.tangent_offset, hit.index.z).xyz * hit.barycentric.z;
+        const vec4 t0 = fetch_tangent(geometry, hit.index.x);
+        const vec3 t = t0.xyz * hit.barycentric.x + fetch_tangent(geometry, hit.index.y).xyz * hit.barycentric.y +
+                       fetch_tangent(geometry, hit.index.z).xyz * hit.barycentric.z;
         tangent = vec4(mat3(instance.object_to_world) * t, t0.w * instance.determinant_sign);
     }
     vec3 dp_du = vec3(0.0f);

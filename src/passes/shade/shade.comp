@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Resolves the visibility buffer and lights it.
 #include "passes/common/lighting.glsl"
+#include "passes/common/visible_lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 // Pictures of something else than radiance have a pipeline of their own, so that the common one stays small.
@@ -11,8 +12,11 @@ layout(set = 0, binding = 12) uniform usampler2D visibility;
 layout(set = 0, binding = 13, rgba32f) uniform writeonly image2D contribution;
 
 vec4 background(vec3 direction) {
-    if (draws_aov || frame.batch != 0u || frame.sky_enabled == 0u) return vec4(0.0f);
-    return vec4(sky_seen(normalize(direction)), 0.0f);
+    if (draws_aov || frame.batch != 0u) return vec4(0.0f);
+    const vec3 unit = normalize(direction);
+    vec3 seen = lights_seen(frame.position, unit, beyond_every_light);
+    if (frame.sky_enabled != 0u) seen += sky_seen(unit);
+    return vec4(seen, 0.0f);
 }
 
 vec3 value_of(SurfacePoint point, uint pixel_seed) {
@@ -37,7 +41,10 @@ void main() {
         value = background(direction);
     } else {
         const uint seed = pcg_hash(pixel.x + pcg_hash(pixel.y + pcg_hash(frame.random_seed)));
-        value = vec4(value_of(resolve_surface(visible.x - 1u, visible.y, frame, direction), seed), 1.0f);
+        const SurfacePoint point = resolve_surface(visible.x - 1u, visible.y, frame, direction);
+        value = vec4(value_of(point, seed), 1.0f);
+        if (!draws_aov && frame.batch == 0u)
+            value.rgb += lights_seen(frame.position, -point.wo, distance(frame.position, point.position));
     }
     imageStore(contribution, ivec2(pixel), value);
 }

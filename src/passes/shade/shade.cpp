@@ -24,6 +24,7 @@ Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipeli
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
                                                    {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
                                                    {11, *lighting.shading_tables},
+                                                   {16, *lighting.visible_lights},
                                                    {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
                                                    {13, context.image(picture)}});
             context.commands.dispatch_threads(*shade, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});

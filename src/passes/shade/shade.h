@@ -12,6 +12,7 @@ struct LightingInputs {
     const gpu::Buffer* shadow_views = nullptr;    ///< ShadowViewData
     const gpu::Buffer* shading_tables = nullptr;  ///< shading/tables.h
     VkSampler nearest = VK_NULL_HANDLE;
+    const gpu::Buffer* visible_lights = nullptr;  ///< visible_lights.glsl: lights with an extent
 };
 
 /// Lights the visibility buffer in compute: the batch's lights with their shadows, emission, sky. Returns the
