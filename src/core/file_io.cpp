@@ -58,6 +58,23 @@ std::filesystem::path directory_of(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
+/// Devices and pipes take bytes as they come; a new file in their place would be no device. So does what
+/// /dev/stdout names, even where the shell has made that a file.
+bool is_special(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+    if (!std::filesystem::exists(status) || std::filesystem::is_directory(status)) return false;
+    const bool stream = path.parent_path() == "/dev" && std::filesystem::is_symlink(path, ignored);
+    return stream || !std::filesystem::is_regular_file(status);
+}
+
+/// The file that `path` means: behind a link, so that the link stays.
+std::filesystem::path behind_links(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::path target = std::filesystem::is_symlink(path, error) ? std::filesystem::canonical(path, error) : path;
+    return target.empty() ? path : target;
+}
+
 bool write_all(int descriptor, std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -66,6 +83,13 @@ bool write_all(int descriptor, std::string_view bytes) {
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
     return true;
+}
+
+Result<void> write_special(const std::filesystem::path& path, std::string_view bytes) {
+    File file(path.c_str(), O_WRONLY | O_APPEND);
+    if (!file.is_open() || !write_all(file.descriptor(), bytes) || !file.close())
+        return fail(path.string(), "cannot write: " + system_message());
+    return {};
 }
 
 }  // namespace
@@ -99,9 +123,11 @@ Result<void> write_file_atomically(const std::filesystem::path& path, std::strin
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored))
         return fail(path.string(), "expected a file name, found a directory");
+    if (is_special(path)) return write_special(path, bytes);
+    const std::filesystem::path target = behind_links(path);
     std::random_device random;
     // A short name of its own: appending to the target's could exceed what the file system allows.
-    TemporaryName temporary(directory_of(path) / fmt::format(".heliodon-{:08x}{:08x}.tmp", random(), random()));
+    TemporaryName temporary(directory_of(target) / fmt::format(".heliodon-{:08x}{:08x}.tmp", random(), random()));
     File file(temporary.path().c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
     if (!file.is_open()) {
         temporary.keep();  // not ours
@@ -109,7 +135,7 @@ Result<void> write_file_atomically(const std::filesystem::path& path, std::strin
     }
     if (!write_all(file.descriptor(), bytes)) return fail(path.string(), "cannot write: " + system_message());
     if (!file.close()) return fail(path.string(), "cannot write: " + system_message());
-    if (::rename(temporary.path().c_str(), path.c_str()) != 0) {
+    if (::rename(temporary.path().c_str(), target.c_str()) != 0) {
         return fail(path.string(), "cannot write: " + system_message());
     }
     temporary.keep();
@@ -120,7 +146,11 @@ Result<void> check_directory_writable(const std::filesystem::path& path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored))
         return fail(path.string(), "expected a file name, found a directory");
-    const std::filesystem::path directory = directory_of(path);
+    if (is_special(path)) {
+        if (::access(path.c_str(), W_OK) == 0) return {};
+        return fail(path.string(), "cannot write: " + system_message());
+    }
+    const std::filesystem::path directory = directory_of(behind_links(path));
     if (!std::filesystem::exists(directory, ignored)) {
         return fail(path.string(), fmt::format("cannot write: the directory {} does not exist", directory.string()));
     }

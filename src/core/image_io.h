@@ -34,7 +34,8 @@ namespace heliodon {
 /// The same for a file of any ending.
 [[nodiscard]] Result<void> check_directory_writable(const std::filesystem::path& path);
 
-/// Writes `bytes` to a temporary name beside `path` and renames it.
+/// Writes `bytes` to a temporary name beside `path` and renames it; a link stays a link to what it names, and
+/// devices and pipes are written to directly.
 [[nodiscard]] Result<void> write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
 

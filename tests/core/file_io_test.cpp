@@ -35,6 +35,24 @@ TEST(Files, NamesAtTheFileSystemsLimitCanBeWritten) {
     EXPECT_TRUE(write_file_atomically(directory / std::string(255, 'n'), "x"));
 }
 
+TEST(Files, BehindALinkAreReplacedAndTheLinkStays) {
+    const TemporaryDirectory directory;
+    ASSERT_TRUE(write_file_atomically(directory / "file", "old"));
+    std::filesystem::create_symlink("file", directory / "link");
+    ASSERT_TRUE(write_file_atomically(directory / "link", "new"));
+    EXPECT_TRUE(std::filesystem::is_symlink(directory / "link"));
+    EXPECT_EQ(read_file(directory / "file").value(), "new");
+    EXPECT_EQ(directory.entry_count(), 2u);
+}
+
+TEST(Files, ThatAreDevicesStayDevices) {
+    ASSERT_TRUE(check_directory_writable("/dev/null"));
+    ASSERT_TRUE(write_file_atomically("/dev/null", "x"));
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+    EXPECT_FALSE(write_file_atomically("/dev/full", "x"));
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
 TEST(Writing, IntoAMissingDirectoryFailsAndNamesTheFile) {
     const TemporaryDirectory directory;
     const std::filesystem::path path = directory / "missing/picture.exr";

@@ -83,8 +83,7 @@ Result<void> compare_pictures(const CompareOptions& options) {
         values[name] = value;
         table += fmt::format("{:<16}{:.6g}\n", name, value);
     }
-    print(options.json ? values.dump(2) + "\n" : table);
-    return {};
+    return print(options.json ? values.dump(2) + "\n" : table);
 }
 
 }  // namespace

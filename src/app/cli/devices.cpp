@@ -48,8 +48,7 @@ Result<void> devices(bool json) {
     auto found = list_devices();
     if (!found) return tl::unexpected(found.error());
     if (found->empty()) return fail("", "expected a Vulkan device, found none (Mesa's lavapipe runs on any CPU)");
-    print(json ? as_json(*found) : as_text(*found));
-    return {};
+    return print(json ? as_json(*found) : as_text(*found));
 }
 
 }  // namespace

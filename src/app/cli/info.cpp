@@ -115,8 +115,8 @@ Result<void> info(const InfoOptions& options) {
     auto scene = load(options.scene, warnings);
     if (!scene) return tl::unexpected(scene.error());
     const ordered_json report = describe(*scene, warnings);
-    print(options.json ? report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n" : as_text(report));
-    return {};
+    return print(options.json ? report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n"
+                              : as_text(report));
 }
 
 }  // namespace

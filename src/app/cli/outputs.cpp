@@ -1,7 +1,6 @@
 #include "app/cli/outputs.h"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include "core/image_io.h"
 #include "shading/tone.h"
@@ -15,14 +14,7 @@ Result<void> check_pictures_writable(const std::vector<std::string>& paths) {
 }
 
 Result<void> check_text_writable(const std::filesystem::path& path) {
-    std::error_code error;
-    const std::filesystem::path directory = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-    if (!std::filesystem::is_directory(directory, error))
-        return fail(path.string(), "cannot write: no directory \"" + directory.string() + "\"");
-    if (std::filesystem::is_directory(path, error)) return fail(path.string(), "cannot write: it is a directory");
-    if (access(directory.c_str(), W_OK) != 0)
-        return fail(path.string(), "cannot write: directory \"" + directory.string() + "\" is not writable");
-    return {};
+    return check_directory_writable(path);
 }
 
 Result<void> write_rendered(const std::filesystem::path& path, const Picture& picture) {

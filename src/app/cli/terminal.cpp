@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <mutex>
 
 namespace heliodon::cli {
@@ -48,9 +50,11 @@ void say(const std::string& line) {
     write_line(stderr, line);
 }
 
-void print(const std::string& text) {
-    std::fputs(text.c_str(), stdout);
-    std::fflush(stdout);
+Result<void> print(const std::string& text) {
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+    if (std::fflush(stdout) != 0 || !written)
+        return fail("standard output", std::string("cannot write: ") + std::strerror(errno));
+    return {};
 }
 
 void catch_interrupt() {

@@ -15,8 +15,8 @@ void report_error(const Error& error);
 void report_warnings(const Warnings& warnings);
 /// A plain line on standard error: what a person wants to know beside the results.
 void say(const std::string& line);
-/// Results, on standard output.
-void print(const std::string& text);
+/// Results, on standard output; an error where they do not arrive there (a full disk).
+Result<void> print(const std::string& text);
 
 /// From the first call on, Ctrl-C asks the running work to stop instead of ending the program (a second one
 /// ends it). Whoever writes files asks `interrupted` first.
