@@ -63,6 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongUsage{"ToneCurve", render_with({"--tonemap", "aces"}), "\"aces\""},
                     WrongUsage{"Exposure", render_with({"--ev100", "bright"}), "\"bright\""},
                     WrongUsage{"AutomaticExposure", render_with({"--ev100", "auto"}), "automatic"},
+                    WrongUsage{"AovTwice", render_with({"--aov", "albedo,albedo"}), "once"},
                     WrongUsage{"Aov", render_with({"--aov", "albedo,beauty"}), "\"beauty\""},
                     WrongUsage{
                         "AovWithoutExr", {"render", "s.heliodon.json", "-o", "o.png", "--aov", "albedo"}, "--aov"},

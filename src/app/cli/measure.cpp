@@ -67,7 +67,9 @@ std::string as_json(const Readings& readings) {
                            {"rgb", {reading.rgb.x, reading.rgb.y, reading.rgb.z}},
                            {"unit", unit(reading.type)},
                            {"half_width_95", reading.half_width_95}});
-    return nlohmann::json{{"sensors", std::move(sensors)}}.dump(2) + "\n";
+    // Names come from the command line too (--set), in any encoding.
+    return nlohmann::json{{"sensors", std::move(sensors)}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+           "\n";
 }
 
 /// A field as RFC 4180 quotes it.
@@ -94,8 +96,7 @@ Result<void> measure(const MeasureOptions& options) {
         options.engine == Engine::path ? measure_with_paths(*scene, options) : measure_in_real_time(*scene, options);
     if (interrupted()) return fail("", "interrupted");
     if (!readings) return tl::unexpected(readings.error());
-    print(options.json ? as_json(*readings) : as_csv(*readings));
-    return {};
+    return print(options.json ? as_json(*readings) : as_csv(*readings));
 }
 
 }  // namespace
@@ -107,10 +108,10 @@ Action declare_measure(CLI::App& command) {
         "--engine", [options = options.get()](const std::string& text) { options->engine = read_engine(text); },
         "path (default) or realtime (direct light and sky)");
     command.add_option("--spp", options->samples, "Path engine: samples a sensor; default 4096")
-        ->check(CLI::PositiveNumber);
+        ->check(check_positive);
     command.add_option("--max-depth", options->max_depth, "Scattering events, 1 = direct light; default unlimited")
-        ->check(CLI::NonNegativeNumber);
-    command.add_option("--seed", options->seed, "Seed of the samples")->check(CLI::NonNegativeNumber);
+        ->check(check_not_negative);
+    command.add_option("--seed", options->seed, "Seed of the samples")->check(check_not_negative);
     command.add_flag("--no-environment", options->no_environment, "The sky gives no light");
     command.add_option("--device", options->device.device,
                        "Real-time engine: Vulkan device, by number or part of its name");

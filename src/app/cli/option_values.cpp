@@ -60,6 +60,8 @@ std::vector<std::string> read_aovs(const std::string& text) {
     for (const std::string& name : names)
         if (std::find(std::begin(known), std::end(known), name) == std::end(known))
             refuse("--aov", "names out of albedo, normal, depth, position, direct, indirect", name);
+    for (auto name = names.begin(); name != names.end(); ++name)
+        if (std::find(names.begin(), name, *name) != name) refuse("--aov", "each name once", text);
     return names;
 }
 
@@ -77,6 +79,16 @@ void check_tonemap(const std::string& text) {
 
 void check_gi(const std::string& text) {
     if (text != "none") refuse("--gi", "none (this version's real-time engine renders direct light)", text);
+}
+
+std::string check_positive(const std::string& text) {
+    const auto value = read_number<double>(text);
+    return value && *value > 0 ? "" : fmt::format("expected a number above 0, found \"{}\"", text);
+}
+
+std::string check_not_negative(const std::string& text) {
+    const auto value = read_number<double>(text);
+    return value && *value >= 0 ? "" : fmt::format("expected a number at least 0, found \"{}\"", text);
 }
 
 std::string numbered_path(const std::string& path, int frame) {

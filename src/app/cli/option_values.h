@@ -33,6 +33,10 @@ void check_tonemap(const std::string& text);
 /// Accepts the kinds of global illumination that this version has.
 void check_gi(const std::string& text);
 
+/// Validators of numbers: empty, or what was expected and found.
+[[nodiscard]] std::string check_positive(const std::string& text);
+[[nodiscard]] std::string check_not_negative(const std::string& text);
+
 /// `path` for frame `frame`: a run of # becomes the number with that many digits; without one, `-0000` goes
 /// before the ending.
 [[nodiscard]] std::string numbered_path(const std::string& path, int frame);
