@@ -159,7 +159,10 @@ Result<void> run(Viewer& viewer, Scene& scene, ViewState& view) {
         move_camera(view, input, static_cast<float>(size.height), seconds);
         if (input.toggle_panels) view.panels_visible = !view.panels_visible;
         // Shaders that do not compile stay as they were; the panel shows why.
-        if (input.reload_shaders) shader_errors = viewer.renderer->pipelines().reload().errors;
+        if (input.reload_shaders) {
+            shader_errors.clear();
+            if (auto reloaded = viewer.renderer->reload_shaders(); !reloaded) shader_errors.push_back(reloaded.error());
+        }
         const std::vector<PassTime> passes = viewer.renderer->pass_times();
         FrameReport report{passes, 0, viewer.device->info().name, accumulated_frames, shader_errors};
         for (const PassTime& pass : passes) report.gpu_ms_total += pass.gpu_ms;
