@@ -46,7 +46,7 @@ struct Shader {
     ShaderReflection reflection;
 };
 
-/// The stage that a file's ending names (.comp .vert .frag .geom .tesc .tese .mesh .task .rgen …).
+/// The stage that a file's ending names (.comp .vert .frag .geom .tesc .tese).
 [[nodiscard]] Result<VkShaderStageFlagBits> stage_of(const std::string& name);
 
 /// Compiles GLSL for Vulkan 1.3; #include finds files below `include_directory` or beside the includer, and

@@ -257,8 +257,10 @@ Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const co
         });
     }
     const RTCError error = rtcGetDeviceError(device_.get());
-    if (error != RTC_ERROR_NONE)
+    if (error != RTC_ERROR_NONE) {
+        top_.reset();
         return fail("", fmt::format("Embree cannot build the scene (error {})", static_cast<int>(error)));
+    }
     return result;
 }
 
