@@ -202,7 +202,8 @@ Result<void> render(const RenderOptions& options) {
         if (options.frames) scene->apply_animations(frame / options.fps);
         if (auto done = render_frame(**renderer, *scene, options, frame, statistics); !done) return done;
     }
-    if (options.json) print(statistics.dump(2) + "\n");
+    if (options.json)
+        if (auto printed = print(statistics.dump(2) + "\n"); !printed) return printed;
     if (!options.stats.empty()) return write_file_atomically(options.stats, statistics.dump(2) + "\n");
     return {};
 }
@@ -211,21 +212,21 @@ void declare_engine_options(CLI::App& command, RenderOptions& options) {
     using Text = const std::string&;
     command.add_option_function<std::string>(
         "--engine", [&](Text text) { options.engine = read_engine(text); }, "realtime (default) or path");
-    command.add_option("--seed", options.seed, "Seed of the samples")->check(CLI::NonNegativeNumber);
+    command.add_option("--seed", options.seed, "Seed of the samples")->check(check_not_negative);
     command.add_flag("--no-environment", options.no_environment, "The sky gives no light and is black");
     command.add_option_function<std::string>(
         "--gi", [&](Text text) { check_gi(text), options.gi_given = true; },
         "Global illumination: none (real-time engine)");
     command.add_option("--spp", options.samples, "Samples a pixel (real-time engine: frames averaged); default 64")
-        ->check(CLI::PositiveNumber);
+        ->check(check_positive);
     command.add_option("--seconds", options.seconds, "Path engine: stop after this long instead")
-        ->check(CLI::PositiveNumber);
+        ->check(check_positive);
     command
         .add_option("--max-depth", options.max_depth,
                     "Path engine: scattering events, 1 = direct light; default unlimited")
-        ->check(CLI::NonNegativeNumber);
+        ->check(check_not_negative);
     command.add_option("--threads", options.threads, "Path engine: threads; default all cores")
-        ->check(CLI::PositiveNumber);
+        ->check(check_positive);
     command.add_option("--device", options.device.device,
                        "Real-time engine: Vulkan device, by number or part of its name");
     command.add_flag("--validation", options.device.validation, "Real-time engine: with Vulkan's validation layer");
@@ -234,7 +235,7 @@ void declare_engine_options(CLI::App& command, RenderOptions& options) {
                     "Real-time engine: compile the shaders of this directory")
         ->check(CLI::ExistingDirectory);
     command.add_option("--frames-timed", options.frames_timed, "Real-time engine: time so many frames after warm-up")
-        ->check(CLI::PositiveNumber);
+        ->check(check_positive);
 }
 
 void declare_picture_options(CLI::App& command, RenderOptions& options) {
@@ -258,7 +259,7 @@ void declare_picture_options(CLI::App& command, RenderOptions& options) {
         "--frames", [&](Text text) { options.frames = read_frames(text); },
         "FIRST..LAST of the animation, one numbered output each (### in its name)");
     command.add_option("--fps", options.fps, "Frames a second of the animation; default 24")
-        ->check(CLI::PositiveNumber);
+        ->check(check_positive);
     command.add_option("--stats", options.stats, "Write the numbers of the run to this JSON file");
     command.add_flag("--json", options.json, "Print the numbers of the run as JSON");
 }
