@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/units.h"
 #include "realtime/camera_frame.h"
 #include "realtime/frame_renderer.h"
 
@@ -298,7 +299,7 @@ Result<std::vector<SensorReading>> RealtimeRenderer::measure(const Scene& scene,
         reading.name = sensors[i]->name;
         reading.type = sensors[i]->type;
         reading.rgb = rgb;
-        reading.value = 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z;
+        reading.value = units::luminance(glm::dvec3(rgb));
         readings.push_back(std::move(reading));
     }
     return readings;
