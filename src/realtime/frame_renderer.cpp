@@ -145,11 +145,12 @@ Result<void> FrameRenderer::prepare() {
     if (wanted_ == key_) return {};
 
     if (auto done = device_.wait_idle(); !done) return done;
-    if (auto done = make_images(); !done) return done;
-    if (auto done = build_shadow_graph(); !done) return done;
-    if (auto done = build_frame_graph(); !done) return done;
-    key_ = wanted_;
-    return {};
+    const Result<void> rebuilt = make_images()
+                                     .and_then([&] { return build_shadow_graph(); })
+                                     .and_then([&] { return build_frame_graph(); });
+    // After a failure some of it is of the old size and some of the new: the next frame makes all anew.
+    key_ = rebuilt ? wanted_ : decltype(key_){};
+    return rebuilt;
 }
 
 Result<void> FrameRenderer::make_images() {

@@ -68,6 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongUsage{
                         "AovWithoutExr", {"render", "s.heliodon.json", "-o", "o.png", "--aov", "albedo"}, "--aov"},
                     WrongUsage{"SamplesZero", render_with({"--engine", "path", "--spp", "0"}), "--spp"},
+                    WrongUsage{"SamplesAndSeconds", render_with({"--engine", "path", "--spp", "4", "--seconds", "1"}), "--spp"},
                     WrongUsage{"DepthForRealtime", render_with({"--max-depth", "3"}), "--max-depth"},
                     WrongUsage{"Frames", render_with({"--frames", "9..3"}), "9..3"},
                     WrongUsage{"Override", render_with({"--set", "render.gi"}), "render.gi"},

@@ -217,10 +217,11 @@ void declare_engine_options(CLI::App& command, RenderOptions& options) {
     command.add_option_function<std::string>(
         "--gi", [&](Text text) { check_gi(text), options.gi_given = true; },
         "Global illumination: none (real-time engine)");
-    command.add_option("--spp", options.samples, "Samples a pixel (real-time engine: frames averaged); default 64")
+    CLI::Option* samples = command.add_option("--spp", options.samples, "Samples a pixel (real-time engine: frames averaged); default 64")
         ->check(check_positive);
     command.add_option("--seconds", options.seconds, "Path engine: stop after this long instead")
-        ->check(check_positive);
+        ->check(check_positive)
+        ->excludes(samples);
     command
         .add_option("--max-depth", options.max_depth,
                     "Path engine: scattering events, 1 = direct light; default unlimited")

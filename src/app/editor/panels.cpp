@@ -49,8 +49,10 @@ void exposure_controls(Camera& camera) {
 }
 
 void camera_panel(const Scene& scene, ViewState& view) {
-    scene.cameras().each([&](CameraId, const Camera& camera) {
+    scene.cameras().each([&](CameraId id, const Camera& camera) {
+        ImGui::PushID(static_cast<int>(id.index));  // names need not differ
         if (ImGui::Button(camera.name.empty() ? "camera" : camera.name.c_str())) view.camera = camera;
+        ImGui::PopID();
         ImGui::SameLine();
     });
     ImGui::NewLine();
@@ -60,8 +62,11 @@ void camera_panel(const Scene& scene, ViewState& view) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(120.0f);
     ImGui::SliderFloat("speed", &view.fly_speed_m_per_s, 0.1f, 100.0f, "%.1f m/s", ImGuiSliderFlags_Logarithmic);
-    ImGui::DragFloat3("position", glm::value_ptr(view.camera.position), 0.01f, 0, 0, "%.2f m");
-    ImGui::DragFloat3("target", glm::value_ptr(view.camera.target), 0.01f, 0, 0, "%.2f m");
+    Camera moved = view.camera;
+    ImGui::DragFloat3("position", glm::value_ptr(moved.position), 0.01f, 0, 0, "%.2f m");
+    ImGui::DragFloat3("target", glm::value_ptr(moved.target), 0.01f, 0, 0, "%.2f m");
+    // A camera at its target, or one that looks along its up vector, has no picture.
+    if (glm::length(glm::cross(moved.target - moved.position, moved.up)) > 1e-4f) view.camera = moved;
     degrees_slider("field of view", view.camera.vertical_fov_rad, 5.0f, 120.0f);
     exposure_controls(view.camera);
 }
