@@ -47,8 +47,9 @@ shading::FrameData camera_frame(const Camera& camera, const Bounds& scene, int w
 glm::vec2 sample_position(std::uint32_t index, std::uint32_t count, std::uint32_t seed) {
     glm::vec2 point;
     if (count > 0) {
-        // The radical inverse is centred in its cells too, or the mean would be half a cell off.
-        point = shading::hammersley(index, count) + glm::vec2(0.0f, 0.5f / static_cast<float>(count));
+        // The radical inverse is centred in its cells too, or the mean would be half a cell off; turned by a half,
+        // or √count points would lie on each diagonal, where edges through pixels' corners give them to one side.
+        point = glm::fract(shading::hammersley(index, count) + glm::vec2(0.0f, 0.5f + 0.5f / static_cast<float>(count)));
     } else {
         // 1/φ₂ and 1/φ₂² of the plastic number; doubles, because the index grows without end.
         point = {static_cast<float>(std::fmod(0.5 + 0.7548776662466927 * index, 1.0)),
