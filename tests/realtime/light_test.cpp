@@ -68,6 +68,18 @@ TEST_F(DirectLight, APictureCanBeOnePixel) {
     EXPECT_NEAR(render(scene, camera_above(6, 3), 1, 4).at(0, 0), 1.0f, 1e-4f);
 }
 
+TEST_F(DirectLight, AnEdgeThroughPixelsCornersCoversHalfOfThem) {
+    Scene scene;
+    const float r = std::sqrt(0.5f);  // the sheet ends along x + z = 0, the diagonal of the picture
+    add_shape_node(scene, Quad{{0, 0, 0}, {20 * r, 0, 20 * r}, {20 * r, 0, -20 * r}}, scene.add_material(lambert(glm::vec3(1))),
+                   Transform{.translation = {-10 * r, 0, 10 * r}});
+    add_sun(scene, {0, -1, 0}, glm::vec3(pi));
+    const Image image = render(scene, camera_above(6, 3), 16, 64);
+    for (int i = 0; i < 16; ++i) EXPECT_NEAR(image.at(i, 15 - i), 0.5f, 1e-4f) << i;
+    EXPECT_NEAR(image.at(15, 15), 1.0f, 1e-4f);
+    EXPECT_EQ(image.at(0, 0), 0.0f);
+}
+
 TEST_F(DirectLight, APictureOfNoSizeIsRefused) {
     Scene scene;
     RealtimeOptions options;
