@@ -95,8 +95,10 @@ TEST_F(Commands, StatisticsOfTheRealtimeEngineHaveTheDesignsKeys) {
     const Ended ended = render({"--frames-timed", "3", "--stats", "n.json", "-o", "a.exr"});
     ASSERT_EQ(ended.code, 0) << ended.error;
     const json stats = json::parse(read_text(folder() / "n.json"));
+    // Beside the design's: vertex_bytes, which shows what convert.vertex_precision saves.
     EXPECT_EQ(keys(stats), (std::vector<std::string>{"cpu_ms", "device", "gpu_memory_bytes", "gpu_ms_total", "passes",
-                                                     "peak_rss_bytes"}));
+                                                     "peak_rss_bytes", "vertex_bytes"}));
+    EXPECT_GT(stats["vertex_bytes"], 0);
     EXPECT_FALSE(stats["passes"].empty());
     for (const json& pass : stats["passes"]) EXPECT_EQ(keys(pass), (std::vector<std::string>{"gpu_ms", "name"}));
     EXPECT_GT(stats["gpu_ms_total"], 0);
