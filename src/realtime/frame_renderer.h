@@ -11,6 +11,7 @@
 #include "gpu/pipeline.h"
 #include "gpu/timestamps.h"
 #include "graph/executor.h"
+#include "passes/sensors/sensors.h"
 #include "passes/shade/shade.h"
 #include "passes/shadow/shadow.h"
 #include "realtime/gpu_scene.h"
@@ -100,6 +101,8 @@ private:
     [[nodiscard]] Result<void> open();
     [[nodiscard]] Result<void> plan_lights();
     [[nodiscard]] Result<void> upload_visible_lights();
+    [[nodiscard]] Result<void> record_sensor_batch(const gpu::Buffer& sensors, std::uint32_t count, const FrameSample& sample,
+                                                   std::size_t batch, const passes::SensorLights& lights);
     [[nodiscard]] Result<void> place_area_lights(const FrameSample& sample);
     [[nodiscard]] Result<void> prepare();
     [[nodiscard]] Result<void> make_images();

@@ -6,6 +6,12 @@
 #include "realtime/frame_renderer.h"
 
 namespace heliodon::realtime {
+namespace {
+
+constexpr std::uint32_t points_of_area_light = 256;  // of a light with an extent, for a sensor's mean
+
+}  // namespace
+
 
 Result<void> FrameRenderer::prefilter_sky() {
     prefiltered_sky_ = gpu_scene_.sky_revision();
@@ -34,6 +40,21 @@ Result<void> FrameRenderer::prefilter_sky() {
     return gpu_scene_.set_sky_maps(maps);
 }
 
+Result<void> FrameRenderer::record_sensor_batch(const gpu::Buffer& sensors, std::uint32_t count, const FrameSample& sample,
+                                                std::size_t batch, const passes::SensorLights& lights) {
+    Result<void> status;
+    auto done = device_.run("sensors", [&](gpu::Commands& commands) {
+        status = record_shadows(commands, sample, batch, nullptr);
+        if (!status) return;
+        const gpu::Access sampled{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        commands.transition(shadow_depth_, sampled);
+        commands.transition(shadow_slope_, sampled);
+        status = passes::record_sensors(commands, pipelines_, inputs_, lighting_, shadow_depth_, shadow_slope_, sensors, count, lights);
+    });
+    return status ? done : status;
+}
+
 Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Receiver>& receivers, bool environment) {
     std::vector<glm::vec3> result(receivers.size(), glm::vec3(0));
     if (receivers.empty()) return result;
@@ -46,25 +67,22 @@ Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Rec
     if (!buffer) return tl::unexpected(buffer.error());
     if (auto done = device_.upload<shading::SensorData>(*buffer, sensors); !done) return tl::unexpected(done.error());
 
-    for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch) {
-        const passes::SensorLights lights{plan_.batches[batch].first_light, plan_.batches[batch].light_count,
-                                          environment && batch == 0};
-        Result<void> status;
-        auto done = device_.run("sensors", [&](gpu::Commands& commands) {
-            status = record_shadows(commands, FrameSample{}, batch, nullptr);
-            if (!status) return;
-            const gpu::Access sampled{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-                                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-            commands.transition(shadow_depth_, sampled);
-            commands.transition(shadow_slope_, sampled);
-            status = passes::record_sensors(commands, pipelines_, inputs_, lighting_, shadow_depth_, shadow_slope_,
-                                            *buffer, static_cast<std::uint32_t>(sensors.size()), lights);
-        });
-        if (!status) return tl::unexpected(status.error());
-        if (!done) return tl::unexpected(done.error());
-        auto read = device_.read_back_as<shading::SensorData>(*buffer);
-        if (!read) return tl::unexpected(read.error());
-        for (std::size_t i = 0; i < result.size(); ++i) result[i] += (*read)[i].illuminance;
+    const std::uint32_t points = has_area_lights_ ? points_of_area_light : 1;
+    for (std::uint32_t point = 0; point < points; ++point) {
+        FrameSample sample;
+        sample.count = points;
+        sample.index = sample.shadow_index = point;
+        sample.jitter_shadows = has_area_lights_;
+        for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch) {
+            const passes::SensorLights lights{plan_.batches[batch].first_light, plan_.batches[batch].light_count,
+                                              environment && batch == 0};
+            if (auto done = record_sensor_batch(*buffer, static_cast<std::uint32_t>(sensors.size()), sample, batch, lights); !done)
+                return tl::unexpected(done.error());
+            auto read = device_.read_back_as<shading::SensorData>(*buffer);
+            if (!read) return tl::unexpected(read.error());
+            for (std::size_t i = 0; i < result.size(); ++i)
+                result[i] += (*read)[i].illuminance / static_cast<float>(points);
+        }
     }
     return result;
 }

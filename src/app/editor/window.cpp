@@ -77,7 +77,6 @@ Result<VkSurfaceKHR> Window::create_surface(VkInstance instance) const {
 }
 
 bool Window::should_close() const { return glfwWindowShouldClose(handle()); }
-void Window::close() { glfwSetWindowShouldClose(handle(), GLFW_TRUE); }
 
 VkExtent2D Window::extent() const {
     int width = 0, height = 0;
@@ -85,7 +84,6 @@ VkExtent2D Window::extent() const {
     return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
-void Window::set_title(const std::string& title) { glfwSetWindowTitle(handle(), title.c_str()); }
 
 Input Window::poll(bool wait) {
     wait ? glfwWaitEvents() : glfwPollEvents();

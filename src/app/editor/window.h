@@ -33,9 +33,7 @@ public:
     [[nodiscard]] Result<VkSurfaceKHR> create_surface(VkInstance instance) const;
 
     [[nodiscard]] bool should_close() const;
-    void close();
     [[nodiscard]] VkExtent2D extent() const;  ///< of the framebuffer; 0×0 while minimized
-    void set_title(const std::string& title);
     /// Handles pending events; waits for one when `wait` (minimized).
     [[nodiscard]] Input poll(bool wait = false);
     [[nodiscard]] GLFWwindow* handle() const { return handle_.get(); }

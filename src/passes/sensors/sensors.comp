@@ -8,17 +8,12 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 12, std430) buffer Sensors { SensorData sensors[]; };
 layout(push_constant) uniform Push { SensorConstants push; };
 
-const uint area_light_samples = 256u;
-
+/// Lights with an extent come here as one of their points; the caller averages over many.
 vec3 illuminance_from(LightData light, vec3 position, vec3 normal) {
-    const uint samples = light_is_delta(light) ? 1u : area_light_samples;
-    vec3 sum = vec3(0.0f);
-    for (uint i = 0u; i < samples; ++i) {
-        const LightSample arriving = light_sample(light, position, hammersley(i, samples));
-        sum += arriving.value * max(dot(arriving.direction, normal), 0.0f);
-    }
-    if (sum == vec3(0.0f)) return sum;
-    return sum * (light_visibility(light, position, normal, shadow_filter_percentage_closer) / float(samples));
+    const LightSample arriving = light_sample(light, position, vec2(0.5f));
+    const vec3 unshadowed = arriving.value * max(dot(arriving.direction, normal), 0.0f);
+    if (unshadowed == vec3(0.0f)) return unshadowed;
+    return unshadowed * light_visibility(light, position, normal, shadow_filter_percentage_closer);
 }
 
 void main() {
