@@ -126,10 +126,30 @@ struct ConvertSettings {
     int shape_segments = 128;    ///< round a full circle
     enum class Precision : std::uint8_t { full, compact } vertex_precision = Precision::full;
 };
+/// When surfaces are voxelized anew: never after the first time, where the scene changed, or in every frame.
+enum class Revoxelize : std::uint8_t { once, changed, always };
+/// Who voxelizes: the one that is faster on the device, the hardware rasterizer, or compute.
+enum class Voxelizer : std::uint8_t { automatic, raster, compute };
+
+/// Effects of voxel cone tracing, each of which switches alone.
+struct ConeTracingSettings {
+    bool diffuse = true, specular = true, refraction = true;
+    bool shadows = false;          ///< lights by a cone of their true size instead of shadow maps
+    bool ao = true;                ///< off: the sky is not occluded
+    int cones = 9;                 ///< over the hemisphere; a multiple of 9
+    bool half_resolution = false;  ///< diffuse cones at every second pixel, upsampled by depth and normal
+    bool operator==(const ConeTracingSettings&) const = default;
+};
+
 /// The scene file's `render` block.
 struct RenderSettings {
     std::string gi = "none";
-    int voxels = 128;
+    int voxels = 128;   ///< an edge of one cascade of the voxel volume; a power of two, 32 to 512
+    int cascades = 1;   ///< nested volumes, each twice as wide as the one within it
+    int bounces = 0;    ///< of indirect light in the voxel volume; 0 ("inf" in files): all
+    Revoxelize revoxelize = Revoxelize::changed;
+    Voxelizer voxelizer = Voxelizer::automatic;
+    ConeTracingSettings vct;
     std::string tonemap = "hable";
     int shadow_map_size = 2048;
 };

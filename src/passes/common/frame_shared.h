@@ -11,6 +11,7 @@ SHADING_CONST uint no_attribute = 0xffffffffu;
 SHADING_CONST uint geometry_format_compact_vectors = 1u;  // normals and tangents
 SHADING_CONST uint geometry_format_compact_texcoord0 = 2u;
 SHADING_CONST uint geometry_format_compact_texcoord1 = 4u;
+SHADING_CONST uint geometry_format_closed = 8u;  // triangles bound a volume and face out of it: nobody sees their rear
 SHADING_CONST uint compact_normal_zero = 0x80008000u;  // vectors of no length: codes that no direction has
 SHADING_CONST uint compact_tangent_zero = 0x40008000u;
 SHADING_CONST uint compact_tangent_negative = 0x80000000u;  // the bitangent's sign

@@ -1,0 +1,71 @@
+// The voxel volume, in C++ and GLSL: its grids, and what one occupied voxel keeps of the surfaces in it.
+#ifndef HELIODON_PASSES_VOXEL_SHARED_H
+#define HELIODON_PASSES_VOXEL_SHARED_H
+#include "shading/language.h"
+SHADING_BEGIN
+
+/// A cube of size³ voxels: one cascade of the volume.
+struct VoxelGrid {
+    vec3 origin;          // world position of the corner of voxel (0, 0, 0)
+    float voxel_m;        // edge of a voxel
+    uint size;            // voxels an edge, a power of two
+    float emission_unit;  // cd/m² that fixed-point emission 1 stands for
+    float radiance_unit;  // cd/m² that 1 in the volume's textures stands for
+    uint padding;
+};
+
+SHADING_CONST uint most_cascades = 8u;
+SHADING_CONST uint most_coarse_levels = 9u;  // 512 voxels an edge have levels 1 to 9
+
+/// First words of the numbering buffer of a cascade: counts, and arguments of the dispatches that follow from them.
+/// voxel_number[size³] comes after it: 0 for an empty voxel, else its record + 1.
+struct VoxelHeader {
+    uint record_demand;  // occupied voxels
+    uint record_count;   // of them, those that found room
+    uint tile_demand;    // tiles of large triangles
+    uint tile_count;     // of them, those that found room
+    uvec4 tile_groups;   // VkDispatchIndirectCommand: one workgroup a tile
+    uvec4 record_groups; // VkDispatchIndirectCommand: groups of 64 invocations, one a record
+    uvec4 face_groups;   // VkDispatchIndirectCommand: groups of 64 invocations, one a record's face
+};
+
+/// First words of the list of coarse voxels that hold anything: for level l (1 …), x y z: VkDispatchIndirectCommand of
+/// groups of 64 invocations, one a voxel of the list; w: their number. The lists of linear voxel indices
+/// (x + n (y + n z), n = size >> level) follow one another from voxel_level_first(level).
+struct VoxelLevelsHeader {
+    uvec4 groups[10];  // [0] is unused
+};
+/// Where the list of a level begins, in words after the header. `capacity` records at most.
+SHADING_FN uint voxel_level_first(uint level, uint size, uint capacity) {
+    uint first = 0u;
+    for (uint l = 1u; l < level; ++l) {
+        uint n = size >> l;
+        first += min(capacity, n * n * n);
+    }
+    return first;
+}
+
+/// Sixty-four columns of voxels under a large triangle, along the dominant axis of its normal.
+struct VoxelTile {
+    uint instance;
+    uint primitive;
+    uint column_u;  // first column, in the triangle's own frame: (axis + 1) % 3
+    uint column_v;  // (axis + 2) % 3
+};
+SHADING_CONST uint voxel_tile_edge = 8u;
+
+// A record has six faces (+x −x +y −y +z −z). A surface counts for the faces that it is seen from, with the area
+// that it shows them. One-sided surfaces of meshes that do not close show a black rear: it blocks light.
+// Sums are fixed point, so that their order does not matter.
+SHADING_CONST uint voxel_faces = 6u;
+SHADING_CONST uint voxel_field_area = 0u;  // projected, in faces of a voxel
+SHADING_CONST uint voxel_field_albedo = 1u;
+SHADING_CONST uint voxel_field_emission = 4u;
+SHADING_CONST uint voxel_field_emissive_area = 7u;
+SHADING_CONST uint voxel_field_normal = 8u;     // signed
+SHADING_CONST uint voxel_field_position = 11u;  // in the voxel, 0 … 1
+SHADING_CONST uint voxel_field_count = 14u;
+SHADING_CONST float voxel_fixed_one = 1048576.0f;  // 2²⁰: 4095 voxel faces of area before a sum is full
+
+SHADING_END
+#endif
