@@ -1,4 +1,7 @@
 // Cameras, sensors, sky, and the convert, render and probes blocks.
+#include <fmt/format.h>
+
+#include "scene/render_limits.h"
 #include "scene/scene_file_parts.h"
 
 namespace heliodon::scene_file {
@@ -40,6 +43,36 @@ SkyModel read_sky_model(ObjectReader& sky) {
             model->refuse_as_unsupported("daylight models", "one of \"none\", \"constant\", \"image\"");
     return model->one_of<SkyModel>(
         {{"none", SkyModel::none}, {"constant", SkyModel::constant}, {"image", SkyModel::image}});
+}
+
+int read_voxels(const JsonCursor& cursor) {
+    const std::string expected = fmt::format("a power of two from {} to {}", fewest_voxels, most_voxels);
+    for (int voxels = fewest_voxels; voxels <= most_voxels; voxels *= 2)
+        if (cursor.json().is_number() && cursor.json() == voxels) return voxels;
+    cursor.refuse(expected);
+}
+
+int read_bounces(const JsonCursor& cursor) {
+    if (cursor.json() == "inf") return 0;
+    if (cursor.json().is_string()) cursor.refuse(fmt::format("\"inf\" or a whole number from 1 to {}", most_counted_bounces));
+    return cursor.integer(1, most_counted_bounces);
+}
+
+ConeTracingSettings read_cone_tracing(const JsonCursor& cursor) {
+    ObjectReader object(cursor);
+    ConeTracingSettings settings;
+    object.read("diffuse", settings.diffuse);
+    object.read("specular", settings.specular);
+    object.read("refraction", settings.refraction);
+    object.read("shadows", settings.shadows);
+    object.read("ao", settings.ao);
+    if (const auto cones = object.find("cones")) {
+        settings.cones = cones->integer(hemisphere_cones, most_cones);
+        if (settings.cones % hemisphere_cones != 0) cones->refuse(fmt::format("a multiple of {}", hemisphere_cones));
+    }
+    object.read("half_resolution", settings.half_resolution);
+    object.finish();
+    return settings;
 }
 
 }  // namespace
@@ -108,13 +141,22 @@ ConvertSettings read_convert_settings(const JsonCursor& cursor) {
 }
 
 RenderSettings read_render_settings(const JsonCursor& cursor) {
-    constexpr int most_voxels = 1024, smallest_shadow_map = 16, largest_shadow_map = 16384;
+    constexpr int smallest_shadow_map = 16, largest_shadow_map = 16384;
     ObjectReader object(cursor);
     RenderSettings settings;
     if (const auto gi = object.find("gi"))
         settings.gi = gi->one_of<std::string>(
             {{"none", "none"}, {"vct", "vct"}, {"probes", "probes"}, {"lightmaps", "lightmaps"}});
-    object.read("voxels", settings.voxels, 1, most_voxels);
+    if (const auto voxels = object.find("voxels")) settings.voxels = read_voxels(*voxels);
+    object.read("cascades", settings.cascades, 1, most_voxel_cascades);
+    if (const auto bounces = object.find("bounces")) settings.bounces = read_bounces(*bounces);
+    if (const auto revoxelize = object.find("revoxelize"))
+        settings.revoxelize = revoxelize->one_of<Revoxelize>(
+            {{"once", Revoxelize::once}, {"changed", Revoxelize::changed}, {"always", Revoxelize::always}});
+    if (const auto voxelizer = object.find("voxelizer"))
+        settings.voxelizer = voxelizer->one_of<Voxelizer>(
+            {{"automatic", Voxelizer::automatic}, {"raster", Voxelizer::raster}, {"compute", Voxelizer::compute}});
+    if (const auto vct = object.find("vct")) settings.vct = read_cone_tracing(*vct);
     if (const auto tonemap = object.find("tonemap"))
         settings.tonemap = tonemap->one_of<std::string>({{"hable", "hable"}});
     object.read("shadow_map_size", settings.shadow_map_size, smallest_shadow_map, largest_shadow_map);

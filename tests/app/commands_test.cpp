@@ -122,9 +122,9 @@ TEST_F(Commands, FramesAreNumberedAndTheAnimationMovesBetweenThem) {
 }
 
 TEST_F(Commands, ASceneThatAsksForGlobalIlluminationIsRenderedDirectWithOneWarning) {
-    const Ended ended = render({"--set", "render.gi=vct", "-o", "a.exr"});
+    const Ended ended = render({"--set", "render.gi=probes", "-o", "a.exr"});
     EXPECT_EQ(ended.code, 0) << ended.error;
-    EXPECT_NE(ended.error.find("heliodon: warning: s.heliodon.json: render.gi \"vct\""), std::string::npos)
+    EXPECT_NE(ended.error.find("heliodon: warning: s.heliodon.json: render.gi \"probes\""), std::string::npos)
         << ended.error;
 }
 

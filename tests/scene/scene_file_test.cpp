@@ -233,6 +233,28 @@ TEST(SceneFile, ReadsSensorsAndSettings) {
     EXPECT_EQ(scene.render_settings().shadow_map_size, 1024);
 }
 
+TEST(SceneFile, ReadsEverySettingOfVoxelConeTracing) {
+    const Scene plain = parsed(R"({"heliodon": 1})");
+    EXPECT_EQ(plain.render_settings().vct, ConeTracingSettings{});
+    EXPECT_EQ(plain.render_settings().bounces, 0) << "all of them";
+    const Scene scene = parsed(R"({"heliodon": 1, "render": {"gi": "vct", "voxels": 512, "cascades": 5, "bounces": 2,
+        "revoxelize": "always", "voxelizer": "compute", "vct": {"diffuse": false, "specular": false,
+        "refraction": false, "shadows": true, "ao": false, "cones": 36, "half_resolution": true}}})");
+    const RenderSettings& render = scene.render_settings();
+    EXPECT_EQ(render.voxels, 512);
+    EXPECT_EQ(render.cascades, 5);
+    EXPECT_EQ(render.bounces, 2);
+    EXPECT_EQ(render.revoxelize, Revoxelize::always);
+    EXPECT_EQ(render.voxelizer, Voxelizer::compute);
+    EXPECT_EQ(render.vct, (ConeTracingSettings{.diffuse = false,
+                                               .specular = false,
+                                               .refraction = false,
+                                               .shadows = true,
+                                               .ao = false,
+                                               .cones = 36,
+                                               .half_resolution = true}));
+}
+
 TEST(SceneFile, AMaterialOnAMeshReplacesThoseOfTheModel) {
     const Scene scene = parsed(R"({"heliodon": 1, "materials": {"clay": {}}, "nodes": [
         {"name": "statue", "mesh": "models/statue.obj", "material": "clay", "children": [
@@ -383,11 +405,16 @@ TEST(SceneOverride, OfTheIsoReplacesAFixedExposure) {
 
 TEST(SceneOverride, MakesMembersThatAreMissing) {
     const Scene scene = parsed(overridable, {{"render.voxels", "256"},
+                                             {"render.bounces", "inf"},
+                                             {"render.vct.shadows", "true"},
                                              {"sky.model", "constant"},
                                              {"sky.luminance_nits", "[1,1,1]"},
                                              {"materials.new.metallic", "1"},
                                              {"nodes.room.light", R"({"type": "point", "intensity_cd": 1})"}});
     EXPECT_EQ(scene.render_settings().voxels, 256);
+    EXPECT_EQ(scene.render_settings().bounces, 0);
+    EXPECT_TRUE(scene.render_settings().vct.shadows);
+    EXPECT_TRUE(scene.render_settings().vct.specular) << "an override of one effect leaves the others";
     EXPECT_EQ(scene.sky().model, SkyModel::constant);
     EXPECT_EQ(material_of(scene, "new").metallic, 1.0f);
     EXPECT_TRUE(node_of(scene, "room").light);
@@ -396,7 +423,9 @@ TEST(SceneOverride, MakesMembersThatAreMissing) {
 TEST(SceneOverride, ErrorsNameTheOverride) {
     const auto error = [](std::string path, std::string value) { return error_of(overridable, {{path, value}}); };
     EXPECT_EQ(error("render.voxel", "2"),
-              "--set render.voxel=2: unknown key; expected gi, voxels, tonemap, shadow_map_size");
+              "--set render.voxel=2: unknown key; expected gi, voxels, cascades, bounces, revoxelize, voxelizer, "
+              "vct, tonemap, shadow_map_size");
+    EXPECT_EQ(error("render.vct.cones", "10"), "--set render.vct.cones=10: expected a multiple of 9, found 10");
     EXPECT_EQ(error("rendr.voxels", "2").substr(0, 33), "--set rendr.voxels=2: unknown key");
     EXPECT_EQ(error("nodes.bulb.light.intensity_cd", "bright"),
               "--set nodes.bulb.light.intensity_cd=bright: expected a number or a list of 3 numbers, found \"bright\"");
@@ -419,7 +448,7 @@ TEST(SceneOverride, ErrorsNameTheOverride) {
               "--set cameras.main.position=[1, true, 3]: $.cameras[0].position[1]: expected a number, found true");
     EXPECT_EQ(error("", "1"), "--set =1: expected a dotted path before '=', found none");
     EXPECT_EQ(error("heliodon", "2").substr(0, 19), "--set heliodon=2: e");
-    EXPECT_EQ(error_of(overridable, {{"render.voxels", "5"}, {"cameras.main.iso", "0"}}),
+    EXPECT_EQ(error_of(overridable, {{"render.voxels", "64"}, {"cameras.main.iso", "0"}}),
               "--set cameras.main.iso=0: expected a number above 0, found 0");
 }
 

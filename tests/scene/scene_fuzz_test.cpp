@@ -21,7 +21,7 @@ constexpr std::string_view every_block = R"({"heliodon": 1,
   "sky": {"model": "image", "image": "env.hdr", "north_deg": 10},
   "sensors": [{"name": "desk", "type": "illuminance", "position": [0,0.8,0], "normal": [0,1,0]}],
   "probes": {"min": [-1,0,-1], "max": [1,2,1], "counts": [8,8,8]},
-  "convert": {"shape_segments": 8}, "render": {"gi": "vct", "voxels": 128},
+  "convert": {"shape_segments": 8}, "render": {"gi": "vct", "voxels": 128, "bounces": "inf", "vct": {"shadows": true, "cones": 18}},
   "animations": [{"name": "turn", "channels": [{"target": "nodes.room.rotate_deg", "times_s": [0, 1], "values": [[0,0,0],[0,90,0]]}]}]})";
 
 std::vector<std::string> seeds() {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
+#include "app/cli/gi_options.h"
 #include "app/cli/option_values.h"
 #include "app/cli/scene_argument.h"
 #include "app/cli/terminal.h"
@@ -21,6 +22,7 @@ struct MeasureOptions {
     int max_depth = 0;
     std::uint32_t seed = 0;
     bool no_environment = false;
+    GiOptions gi;
     RealtimeSettings device;
     bool json = false;
 };
@@ -39,15 +41,15 @@ Result<Readings> measure_with_paths(const Scene& scene, const MeasureOptions& op
     return tracer.measure(scene, path, bar.callback());
 }
 
-Result<Readings> measure_in_real_time(const Scene& scene, const MeasureOptions& options) {
-    if (options.max_depth > 1)
-        throw CLI::ValidationError("--max-depth", "the real-time engine measures direct light: expected 1");
+Result<Readings> measure_in_real_time(Scene& scene, const MeasureOptions& options) {
+    apply_gi_options(options.gi, options.scene, scene);
     auto renderer = RealtimeRenderer::create(options.device);
     if (!renderer) return tl::unexpected(renderer.error());
     if (auto updated = renderer->update(scene); !updated) return tl::unexpected(updated.error());
     RealtimeOptions realtime;
     realtime.seed = options.seed;
     realtime.environment = !options.no_environment;
+    realtime.gi = options.max_depth == 1 ? "none" : scene.render_settings().gi;
     return renderer->measure(scene, realtime);
 }
 
@@ -88,7 +90,16 @@ std::string as_csv(const Readings& readings) {
     return text;
 }
 
+/// Option values that are each right but do not go together.
+void check_together(const MeasureOptions& options) {
+    if (options.engine == Engine::realtime && options.max_depth > 1)
+        throw CLI::ValidationError("--max-depth", "the real-time engine counts no bounces: expected 1 (direct light)");
+    if (options.engine == Engine::path && options.gi.given())
+        throw CLI::ValidationError(options.gi.gi.empty() ? "--voxels" : "--gi", "expected with --engine realtime");
+}
+
 Result<void> measure(const MeasureOptions& options) {
+    check_together(options);
     auto scene = load(options.scene);
     if (!scene) return tl::unexpected(scene.error());
     if (scene->sensors().size() == 0) return fail(options.scene.path, "expected sensors to measure, found none");
@@ -106,13 +117,14 @@ Action declare_measure(CLI::App& command) {
     add_scene_argument(command, options->scene);
     command.add_option_function<std::string>(
         "--engine", [options = options.get()](const std::string& text) { options->engine = read_engine(text); },
-        "path (default) or realtime (direct light and sky)");
+        "path (default) or realtime");
     command.add_option("--spp", options->samples, "Path engine: samples a sensor; default 4096")
         ->check(check_positive);
     command.add_option("--max-depth", options->max_depth, "Scattering events, 1 = direct light; default unlimited")
         ->check(check_not_negative);
     command.add_option("--seed", options->seed, "Seed of the samples")->check(check_not_negative);
     command.add_flag("--no-environment", options->no_environment, "The sky gives no light");
+    add_gi_options(command, options->gi);
     command.add_option("--device", options->device.device,
                        "Real-time engine: Vulkan device, by number or part of its name");
     command.add_flag("--json", options->json, "Print JSON instead of CSV");

@@ -4,10 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
+
+#include "scene/render_limits.h"
 
 namespace heliodon::cli {
 namespace {
@@ -55,11 +58,12 @@ FrameRange read_frames(const std::string& text) {
 }
 
 std::vector<std::string> read_aovs(const std::string& text) {
-    static constexpr std::string_view known[] = {"albedo", "normal", "depth", "position", "direct", "indirect"};
+    static constexpr std::string_view known[] = {"albedo", "normal",   "depth", "position", "direct",
+                                                 "indirect", "ao", "voxels", "opacity"};
     std::vector<std::string> names = CLI::detail::split(text, ',');
     for (const std::string& name : names)
         if (std::find(std::begin(known), std::end(known), name) == std::end(known))
-            refuse("--aov", "names out of albedo, normal, depth, position, direct, indirect", name);
+            refuse("--aov", fmt::format("names out of {}", fmt::join(known, ", ")), name);
     for (auto name = names.begin(); name != names.end(); ++name)
         if (std::find(names.begin(), name, *name) != name) refuse("--aov", "each name once", text);
     return names;
@@ -77,8 +81,20 @@ void check_tonemap(const std::string& text) {
     if (text != "hable") refuse("--tonemap", "hable (the tone curve that this version has)", text);
 }
 
-void check_gi(const std::string& text) {
-    if (text != "none") refuse("--gi", "none (this version's real-time engine renders direct light)", text);
+std::string read_gi(const std::string& text) {
+    if (text != "none" && text != "vct") refuse("--gi", "none or vct (the kinds that this version has)", text);
+    return text;
+}
+
+int read_voxels(const std::string& text) {
+    const auto voxels = read_number<int>(text);
+    if (!voxels || *voxels < fewest_voxels || *voxels > most_voxels || !std::has_single_bit(unsigned(*voxels)))
+        refuse("--voxels", fmt::format("a power of two from {} to {}", fewest_voxels, most_voxels), text);
+    return *voxels;
+}
+
+bool is_voxel_aov(const std::string& name) {
+    return name == "ao" || name == "voxels" || name == "opacity";
 }
 
 std::string check_positive(const std::string& text) {

@@ -23,15 +23,19 @@ struct FrameRange {
 /// `A..B`, both included, A ≤ B, not negative.
 [[nodiscard]] FrameRange read_frames(const std::string& text);
 
-/// Comma-separated names out of albedo, normal, depth, position, direct, indirect.
+/// Comma-separated names out of albedo, normal, depth, position, direct, indirect, and those of is_voxel_aov.
 [[nodiscard]] std::vector<std::string> read_aovs(const std::string& text);
 
 /// A number; `auto` and other tone and exposure choices that this version lacks are said to be lacking.
 [[nodiscard]] float read_ev100(const std::string& text);
 /// Accepts the tone curves that this version has.
 void check_tonemap(const std::string& text);
-/// Accepts the kinds of global illumination that this version has.
-void check_gi(const std::string& text);
+/// Accepts the kinds of global illumination that this version has: none, vct.
+[[nodiscard]] std::string read_gi(const std::string& text);
+/// A power of two that a voxel volume may have an edge.
+[[nodiscard]] int read_voxels(const std::string& text);
+/// Whether the AOV shows the voxel volume: ao, voxels, opacity.
+[[nodiscard]] bool is_voxel_aov(const std::string& name);
 
 /// Validators of numbers: empty, or what was expected and found.
 [[nodiscard]] std::string check_positive(const std::string& text);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/cli/commands.h"
+#include "app/cli/gi_options.h"
 #include "app/cli/option_values.h"
 #include "app/cli/outputs.h"
 #include "app/cli/scene_argument.h"
@@ -33,7 +34,7 @@ struct RenderOptions {
     int max_depth = 0;
     int threads = 0;
     bool no_environment = false;
-    bool gi_given = false;
+    GiOptions gi;
     std::optional<float> ev100;
     std::vector<std::string> aovs;
     std::string stats;
@@ -106,6 +107,7 @@ public:
 
     Result<Rendered> render(const Scene& scene, const Camera& camera, const Progress& progress) override {
         if (auto updated = renderer_.update(scene); !updated) return tl::unexpected(updated.error());
+        options_.gi = scene.render_settings().gi;
         RealtimeStatistics numbers;
         auto picture = renderer_.render(scene, camera, options_, &numbers, progress);
         if (!picture) return tl::unexpected(picture.error());
@@ -155,6 +157,17 @@ void check_together(const RenderOptions& options) {
         throw CLI::ValidationError(options.seconds ? "--seconds" : "--max-depth", "expected with --engine path");
     if (options.engine == Engine::path && options.frames_timed > 0)
         throw CLI::ValidationError("--frames-timed", "expected with --engine realtime");
+    if (options.engine == Engine::path && options.gi.given())
+        throw CLI::ValidationError(options.gi.gi.empty() ? "--voxels" : "--gi", "expected with --engine realtime");
+}
+
+/// The layers that show the voxel volume need one.
+void check_aovs(const RenderOptions& options, const Scene& scene) {
+    const bool has_volume = options.engine == Engine::realtime && scene.render_settings().gi == "vct";
+    for (const std::string& name : options.aovs)
+        if (is_voxel_aov(name) && !has_volume)
+            throw CLI::ValidationError("--aov", fmt::format("{} shows the voxel volume: expected --engine realtime "
+                                                            "with --gi vct (or render.gi in the scene)", name));
 }
 
 Result<void> render_frame(Renderer& renderer, const Scene& scene, const RenderOptions& options, int frame,
@@ -190,10 +203,8 @@ Result<void> render(const RenderOptions& options) {
 
     auto scene = load(options.scene);
     if (!scene) return tl::unexpected(scene.error());
-    const std::string& gi = scene->render_settings().gi;
-    if (options.engine == Engine::realtime && !options.gi_given && gi != "none")
-        report_warnings(
-            {{options.scene.path, "render.gi \"" + gi + "\" is not in this version: rendering direct light"}});
+    if (options.engine == Engine::realtime) apply_gi_options(options.gi, options.scene, *scene);
+    check_aovs(options, *scene);
     auto renderer = create_renderer(options);
     if (!renderer) return tl::unexpected(renderer.error());
 
@@ -214,9 +225,7 @@ void declare_engine_options(CLI::App& command, RenderOptions& options) {
         "--engine", [&](Text text) { options.engine = read_engine(text); }, "realtime (default) or path");
     command.add_option("--seed", options.seed, "Seed of the samples")->check(check_not_negative);
     command.add_flag("--no-environment", options.no_environment, "The sky gives no light and is black");
-    command.add_option_function<std::string>(
-        "--gi", [&](Text text) { check_gi(text), options.gi_given = true; },
-        "Global illumination: none (real-time engine)");
+    add_gi_options(command, options.gi);
     CLI::Option* samples = command.add_option("--spp", options.samples, "Samples a pixel (real-time engine: frames averaged); default 64")
         ->check(check_positive);
     command.add_option("--seconds", options.seconds, "Path engine: stop after this long instead")
@@ -255,7 +264,7 @@ void declare_picture_options(CLI::App& command, RenderOptions& options) {
         "--tonemap", [](Text text) { check_tonemap(text); }, "Tone curve: hable");
     command.add_option_function<std::string>(
         "--aov", [&](Text text) { options.aovs = read_aovs(text); },
-        "Extra EXR layers: albedo,normal,depth,position,direct,indirect");
+        "Extra EXR layers: albedo,normal,depth,position,direct,indirect; with --gi vct: ao,voxels,opacity");
     command.add_option_function<std::string>(
         "--frames", [&](Text text) { options.frames = read_frames(text); },
         "FIRST..LAST of the animation, one numbered output each (### in its name)");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/cli/commands.h"
+#include "app/cli/gi_options.h"
 #include "app/cli/option_values.h"
 #include "app/cli/scene_argument.h"
 #include "app/editor/viewer.h"
@@ -15,6 +16,7 @@ namespace {
 
 struct ViewOptions {
     SceneArgument scene;
+    GiOptions gi;
     editor::ViewerSettings settings;
 };
 
@@ -34,6 +36,7 @@ Result<void> view(ViewOptions options) {
     }
     auto scene = load(options.scene);
     if (!scene) return tl::unexpected(scene.error());
+    apply_gi_options(options.gi, options.scene, *scene);
     return editor::view(std::move(*scene), options.settings);
 }
 
@@ -50,6 +53,7 @@ Action declare_view(CLI::App& command) {
             settings->height = size.height;
         },
         "WIDTHxHEIGHT of the window; default 1280x720");
+    add_gi_options(command, options->gi);
     command.add_option("--camera", options->settings.camera, "Name of the camera to begin with; default the first");
     command.add_option("--device", options->settings.device, "Vulkan device, by number or part of its name");
     command
