@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <initializer_list>
+#include <utility>
 #include <vector>
+
+#include "scene/render_limits.h"
 
 namespace heliodon::editor {
 namespace {
@@ -141,6 +145,59 @@ void materials_panel(Scene& scene) {
     }
 }
 
+/// One of a few numbers; a value that is not among them is shown all the same.
+bool number_choice(const char* label, int& value, std::initializer_list<int> choices) {
+    if (!ImGui::BeginCombo(label, std::to_string(value).c_str())) return false;
+    const int before = value;
+    for (const int choice : choices)
+        if (ImGui::Selectable(std::to_string(choice).c_str(), choice == value)) value = choice;
+    ImGui::EndCombo();
+    return value != before;
+}
+
+/// One of the values of an enumeration, numbered from 0; `names` in that order, each ended by a zero.
+template <class Enumeration>
+bool named_choice(const char* label, Enumeration& value, const char* names) {
+    int index = static_cast<int>(value);
+    if (!ImGui::Combo(label, &index, names)) return false;
+    value = static_cast<Enumeration>(index);
+    return true;
+}
+
+bool edit_volume(RenderSettings& settings) {
+    bool edited = number_choice("voxels an edge", settings.voxels, {32, 64, 128, 256, 512});
+    edited |= ImGui::SliderInt("cascades", &settings.cascades, 1, most_voxel_cascades, "%d", ImGuiSliderFlags_AlwaysClamp);
+    edited |= ImGui::SliderInt("bounces", &settings.bounces, 0, most_counted_bounces,
+                               settings.bounces == 0 ? "all" : "%d",
+                               ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+    edited |= named_choice("revoxelize", settings.revoxelize, "once\0where changed\0every frame\0");
+    edited |= named_choice("voxelizer", settings.voxelizer, "the faster\0rasterizer\0compute\0");
+    return edited;
+}
+
+bool edit_cone_tracing(ConeTracingSettings& vct) {
+    bool edited = ImGui::Checkbox("diffuse", &vct.diffuse);
+    edited |= ImGui::Checkbox("specular", &vct.specular);
+    edited |= ImGui::Checkbox("refraction", &vct.refraction);
+    edited |= ImGui::Checkbox("shadows by cones", &vct.shadows);
+    edited |= ImGui::Checkbox("occlusion of the sky", &vct.ao);
+    edited |= number_choice("diffuse cones", vct.cones, {9, 18, 36, 72, 144});
+    edited |= ImGui::Checkbox("half resolution", &vct.half_resolution);
+    return edited;
+}
+
+void global_illumination_panel(Scene& scene) {
+    RenderSettings settings = scene.render_settings();
+    bool traced = settings.gi == "vct";
+    bool edited = ImGui::Checkbox("voxel cone tracing", &traced);
+    if (edited) settings.gi = traced ? "vct" : "none";
+    ImGui::BeginDisabled(!traced);
+    edited |= edit_volume(settings);
+    edited |= edit_cone_tracing(settings.vct);
+    ImGui::EndDisabled();
+    if (edited) scene.set_render_settings(std::move(settings));
+}
+
 }  // namespace
 
 void draw_panels(Scene& scene, ViewState& view, const FrameReport& report) {
@@ -152,6 +209,7 @@ void draw_panels(Scene& scene, ViewState& view, const FrameReport& report) {
         if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) camera_panel(scene, view);
         if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) lights_panel(scene);
         if (ImGui::CollapsingHeader("Materials", ImGuiTreeNodeFlags_DefaultOpen)) materials_panel(scene);
+        if (ImGui::CollapsingHeader("Global illumination", ImGuiTreeNodeFlags_DefaultOpen)) global_illumination_panel(scene);
         ImGui::PopItemWidth();
     }
     ImGui::End();

@@ -26,7 +26,7 @@ struct ViewState {
 };
 
 /// Draws the overlay with Dear ImGui into the current frame: milliseconds a pass, camera and exposure,
-/// lights and materials. Every edit of the scene goes through its change journal.
+/// lights, materials and global illumination. Every edit of the scene goes through its change journal.
 void draw_panels(Scene& scene, ViewState& view, const FrameReport& report);
 
 }  // namespace heliodon::editor
