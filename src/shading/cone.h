@@ -114,9 +114,9 @@ SHADING_FN Cone specular_cone(vec3 wo, float alpha) {
 }
 
 /// The GGX refraction lobe (ggx_refraction), Fresnel's factor left out, as one cone below the surface; `eta` = index
-/// beyond the surface / index on wo's side. Its density is Walter et al. 2007, eq. 21 with the half vector's
-/// Jacobian of eq. 17. `weight`: the share of the visible facets that do not reflect totally. False where
-/// all of them do.
+/// beyond the surface / index on wo's side. Walter et al. 2007, eq. 21; the eta² of its Jacobian (eq. 17), which
+/// radiance loses again, belongs to the density. `weight`: the share of the visible facets that do not reflect
+/// totally. False where all of them do.
 SHADING_FN bool refraction_cone(vec3 wo, float alpha, float eta, SHADING_OUT(Cone) cone) {
     vec3 o = vec3(sqrt(wo.x * wo.x + wo.y * wo.y), 0.0f, wo.z);
     vec3 stretched = ggx_stretch(o, alpha);
@@ -135,7 +135,7 @@ SHADING_FN bool refraction_cone(vec3 wo, float alpha, float eta, SHADING_OUT(Con
                 float share = normal.w * ggx_g1(-i.z, alpha);
                 sums.energy += share;
                 sums.direction += vec3(i.x, 0.0f, i.z) * share;
-                sums.mean_square += share * ggx_refraction(o, i, h, alpha, eta);
+                sums.mean_square += share * eta * eta * ggx_refraction(o, i, h, alpha, eta);
             }
         }
     }
