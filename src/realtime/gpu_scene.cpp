@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "convert/closed_mesh.h"
 #include "gpu/bindless_textures.h"
 #include "realtime/vertex_packing.h"
 
@@ -212,6 +213,7 @@ Result<void> GpuScene::upload_geometry(std::uint32_t index, RealtimeUpdate& upda
     data.normal_offset = compact_ ? append(pack_normals(mesh.normals)) : append(mesh.normals);
     data.tangent_offset = compact_ ? append(pack_tangents(mesh.tangents)) : append(mesh.tangents);
     data.format = compact_ ? shading::geometry_format_compact_vectors : 0;
+    if (convert::is_closed(mesh)) data.format |= shading::geometry_format_closed;
     const auto append_texcoords = [&](const auto& set, std::uint32_t compact_flag) {
         if (!compact_ || !packs_texcoords(set)) return append(set);
         data.format |= compact_flag;

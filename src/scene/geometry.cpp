@@ -46,6 +46,9 @@ Mesh triangles(const Box& box, int) {
     add_quad(mesh, {a, x, z});                 // −Y
     add_quad(mesh, {{a.x, a.y, b.z}, x, y});   // +Z
     add_quad(mesh, {{b.x, a.y, a.z}, -x, y});  // −Z
+    // Sums of rounded edges miss their corner: faces meet bit by bit, so that the mesh is closed.
+    for (glm::vec3& p : mesh.positions)
+        for (int c = 0; c < 3; ++c) p[c] = std::abs(p[c] - a[c]) < std::abs(p[c] - b[c]) ? a[c] : b[c];
     return mesh;
 }
 
@@ -75,7 +78,7 @@ Mesh triangles(const Sphere& sphere, int segments) {
         const double sin_theta = pole ? 0.0 : std::sin(theta);
         for (int segment = 0; segment <= segments; ++segment) {
             const double u = (segment + (pole ? 0.5 : 0.0)) / segments;
-            const double phi = 2.0 * std::numbers::pi * u;
+            const double phi = 2.0 * std::numbers::pi * std::fmod(u, 1.0);  // the seam closes bit by bit
             const glm::vec3 normal(glm::dvec3(-sin_theta * std::sin(phi), std::cos(theta), -sin_theta * std::cos(phi)));
             const glm::vec3 tangent(glm::dvec3(-std::cos(phi), 0, std::sin(phi)));
             add_vertex(mesh, sphere.center + sphere.radius * normal, normal, tangent,
