@@ -100,6 +100,11 @@ public:
         dispatch_indirect_bytes(pipeline, bytes_of(push), Bindings(bindings.begin(), bindings.size()), indirect,
                                 offset);
     }
+    template <class Push>
+    void dispatch_indirect(const ComputePipeline& pipeline, const Push& push, Bindings bindings, const Buffer& indirect,
+                           VkDeviceSize offset = 0) {
+        dispatch_indirect_bytes(pipeline, bytes_of(push), bindings, indirect, offset);
+    }
 
     /// Viewport and scissor are set to the area.
     void begin_rendering(const Rendering& rendering);

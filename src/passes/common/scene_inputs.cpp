@@ -5,7 +5,7 @@
 namespace heliodon::passes {
 
 std::vector<gpu::Binding> select_bindings(const gpu::Pipeline& pipeline, const SceneInputs& scene,
-                                          std::initializer_list<NumberedBinding> own) {
+                                          std::span<const NumberedBinding> own) {
     std::vector<gpu::Binding> selected;
     for (const gpu::ShaderBinding& declared : pipeline.layout().bindings()) {
         const auto found = std::find_if(own.begin(), own.end(),

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,10 @@ using NumberedBinding = std::pair<std::uint32_t, gpu::Binding>;
 /// The bindings that a pipeline's shaders declare, in its order: the scene's tables by their numbers, the
 /// others from `own`.
 [[nodiscard]] std::vector<gpu::Binding> select_bindings(const gpu::Pipeline& pipeline, const SceneInputs& scene,
-                                                        std::initializer_list<NumberedBinding> own);
+                                                        std::span<const NumberedBinding> own);
+[[nodiscard]] inline std::vector<gpu::Binding> select_bindings(const gpu::Pipeline& pipeline, const SceneInputs& scene,
+                                                               std::initializer_list<NumberedBinding> own) {
+    return select_bindings(pipeline, scene, std::span(own.begin(), own.size()));
+}
 
 }  // namespace heliodon::passes

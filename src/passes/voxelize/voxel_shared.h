@@ -18,7 +18,7 @@ SHADING_CONST uint most_cascades = 8u;
 SHADING_CONST uint most_coarse_levels = 9u;  // 512 voxels an edge have levels 1 to 9
 
 /// First words of the numbering buffer of a cascade: counts, and arguments of the dispatches that follow from them.
-/// voxel_number[size³] comes after it: 0 for an empty voxel, else its record + 1.
+/// voxel_number[size³] comes after it: 0 for an empty voxel, else its record + 1, or voxel_without_room.
 struct VoxelHeader {
     uint record_demand;  // occupied voxels
     uint record_count;   // of them, those that found room
@@ -28,6 +28,8 @@ struct VoxelHeader {
     uvec4 record_groups; // VkDispatchIndirectCommand: groups of 64 invocations, one a record
     uvec4 face_groups;   // VkDispatchIndirectCommand: groups of 64 invocations, one a record's face
 };
+
+SHADING_CONST uint voxel_without_room = 0xffffffffu;  // occupied, but there are no more records
 
 /// First words of the list of coarse voxels that hold anything: for level l (1 …), x y z: VkDispatchIndirectCommand of
 /// groups of 64 invocations, one a voxel of the list; w: their number. The lists of linear voxel indices
@@ -45,6 +47,11 @@ SHADING_FN uint voxel_level_first(uint level, uint size, uint capacity) {
     return first;
 }
 
+/// Words of a level's voxels at a bit each.
+SHADING_FN uint voxel_bit_words(uint size) {
+    return (size * size * size + 31u) / 32u;
+}
+
 /// Sixty-four columns of voxels under a large triangle, along the dominant axis of its normal.
 struct VoxelTile {
     uint instance;
@@ -53,6 +60,20 @@ struct VoxelTile {
     uint column_v;  // (axis + 2) % 3
 };
 SHADING_CONST uint voxel_tile_edge = 8u;
+
+SHADING_CONST uint small_triangle_voxels = 8u;  // a triangle whose box has more is split into tiles
+
+/// Dispatches of more workgroups than every device takes along x are spread over rows of so many; shaders then
+/// count by linear_groups.glsl.
+SHADING_CONST uint groups_a_row = 65535u;
+
+struct VoxelizeConstants {
+    VoxelGrid grid;
+    uint range_count;
+    uint triangle_count;
+    uint record_capacity;
+    uint tile_capacity;
+};
 
 // A record has six faces (+x −x +y −y +z −z). A surface counts for the faces that it is seen from, with the area
 // that it shows them. One-sided surfaces of meshes that do not close show a black rear: it blocks light.

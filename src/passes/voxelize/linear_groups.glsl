@@ -1,0 +1,12 @@
+// Workgroups and invocations counted along the rows of a dispatch that was spread over x and y.
+#ifndef HELIODON_LINEAR_GROUPS_GLSL
+#define HELIODON_LINEAR_GROUPS_GLSL
+#include "passes/voxelize/voxel_shared.h"
+
+/// Arguments of a dispatch of at least `groups` workgroups; the last row is full, so shaders check their index.
+uvec4 spread_groups(uint groups) { return uvec4(min(groups, groups_a_row), (groups + groups_a_row - 1u) / groups_a_row, 1u, 0u); }
+uint linear_group() { return gl_WorkGroupID.x + groups_a_row * gl_WorkGroupID.y; }
+/// Of a workgroup with one dimension.
+uint linear_invocation() { return linear_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
+
+#endif

@@ -1,0 +1,76 @@
+// A triangle of the scene in the voxel grid's space, where a voxel's edge is 1.
+#ifndef HELIODON_VOXEL_TRIANGLE_GLSL
+#define HELIODON_VOXEL_TRIANGLE_GLSL
+#include "passes/common/scene_tables.glsl"
+#include "passes/voxelize/voxel_shared.h"
+
+struct VoxelTriangle {
+    uint instance;
+    uint primitive;
+    uvec3 index;
+    vec3 p0;
+    vec3 p1;
+    vec3 p2;
+    vec3 normal;  // unit, of the front
+    ivec3 low;    // the voxels of the grid that its box reaches: first and last
+    ivec3 high;
+};
+
+vec3 grid_position(VoxelGrid grid, InstanceData instance, GeometryData geometry, uint vertex) {
+    const vec3 world = vec3(instance.object_to_world * vec4(fetch_vec3(geometry.position_offset, vertex), 1.0f));
+    return (world - grid.origin) / grid.voxel_m;
+}
+
+/// False where it has no area or lies outside the grid. Surfaces in the plane between two voxels belong to the upper
+/// one, those in the grid's last plane to the last voxel.
+bool triangle_in_grid(VoxelGrid grid, vec3 p0, vec3 p1, vec3 p2, float determinant_sign, inout VoxelTriangle triangle) {
+    triangle.p0 = p0;
+    triangle.p1 = p1;
+    triangle.p2 = p2;
+    const vec3 low = min(p0, min(p1, p2));
+    const vec3 high = max(p0, max(p1, p2));
+    const float size = float(grid.size);
+    if (!(all(greaterThanEqual(high, vec3(0.0f))) && all(lessThanEqual(low, vec3(size))))) return false;
+    triangle.low = ivec3(clamp(floor(low), vec3(0.0f), vec3(size - 1.0f)));
+    triangle.high = ivec3(clamp(floor(high), vec3(0.0f), vec3(size - 1.0f)));
+    const vec3 normal = cross(p1 - p0, p2 - p0);
+    const float twice_area = length(normal);
+    if (!(twice_area > 0.0f)) return false;
+    triangle.normal = normal * (determinant_sign / twice_area);
+    return true;
+}
+
+bool load_triangle(VoxelGrid grid, uint instance_index, uint primitive, out VoxelTriangle triangle) {
+    const InstanceData instance = instance_table[instance_index];
+    const GeometryData geometry = geometry_table[instance.geometry];
+    const uint first = geometry.first_index + 3u * primitive;
+    triangle.instance = instance_index;
+    triangle.primitive = primitive;
+    triangle.index = uvec3(index_table[first], index_table[first + 1u], index_table[first + 2u]);
+    return triangle_in_grid(grid, grid_position(grid, instance, geometry, triangle.index.x),
+                            grid_position(grid, instance, geometry, triangle.index.y),
+                            grid_position(grid, instance, geometry, triangle.index.z), instance.determinant_sign, triangle);
+}
+
+/// The axis along which the triangle is seen largest.
+int dominant_axis(vec3 normal) {
+    const vec3 n = abs(normal);
+    return n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
+}
+
+/// First and last voxel along `axis` (the dominant one) that the triangle's plane crosses in a column of voxels.
+/// At most three, but for rounding.
+ivec2 voxels_in_column(VoxelTriangle triangle, int axis, ivec2 column) {
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    const vec2 slope = vec2(triangle.normal[u], triangle.normal[v]) / triangle.normal[axis];
+    const vec2 from = vec2(column) + 0.5f - vec2(triangle.p0[u], triangle.p0[v]);
+    const float depth = triangle.p0[axis] - dot(slope, from);
+    // Sixteen roundings of single precision are more than went into `depth`.
+    const float rounding = exp2(-20.0f) * (abs(triangle.p0[axis]) + abs(from.x) + abs(from.y) + 1.0f);
+    const float reach = 0.5f * (abs(slope.x) + abs(slope.y)) + rounding;
+    const vec2 bounds = clamp(floor(vec2(depth - reach, depth + reach)), -1.0f, float(triangle.high[axis]) + 1.0f);
+    return ivec2(max(int(bounds.x), triangle.low[axis]), min(int(bounds.y), triangle.high[axis]));
+}
+
+#endif
