@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "core/units.h"
 #include "realtime/camera_frame.h"
@@ -77,6 +78,7 @@ struct TimeSeries {
     void write(RealtimeStatistics& statistics) const {
         for (const std::string& name : order) statistics.passes.push_back({name, median(by_pass.at(name))});
         statistics.gpu_ms_total = median(totals);
+        statistics.gpu_ms_mean = std::accumulate(totals.begin(), totals.end(), 0.0) / std::max<double>(1, totals.size());
         statistics.cpu_ms = median(cpu);
     }
 };

@@ -50,7 +50,8 @@ struct PassTime {
 };
 struct RealtimeStatistics {
     std::vector<PassTime> passes;
-    double gpu_ms_total = 0, cpu_ms = 0;
+    double gpu_ms_total = 0, cpu_ms = 0;  ///< of a frame, medians
+    double gpu_ms_mean = 0;               ///< of a frame
     std::string device;
     std::uint64_t gpu_memory_bytes = 0;
     std::uint64_t vertex_bytes = 0;  ///< of them, attributes of vertices (convert.vertex_precision)
