@@ -5,10 +5,10 @@
 namespace heliodon::convert {
 
 /// Whether the triangles bound volumes and face out of them, so that nobody outside sees a rear: with vertices
-/// welded where their positions are equal, every edge is used as often in one direction as in the other, and each
-/// connected piece encloses a positive volume. Triangles with two equal corners do not count. Linear time. Exact
-/// but for hashing: a mesh with a boundary passes with a chance of 2⁻⁶³. Cavities (pieces that face inward) and
-/// self-intersections that turn a piece's volume negative read as not closed.
+/// welded where their positions are equal, each edge is used as often in one direction as in the other, and each
+/// connected piece encloses a positive volume. What fails this (the area that would fill the holes, pieces that face
+/// inward, as a cavity does) may be a thousandth of the whole area: scanned models have a few holes, through which no
+/// more than that share of their light could go. Triangles with two equal corners do not count. Linear time.
 [[nodiscard]] bool is_closed(const Mesh& mesh);
 
 }  // namespace heliodon::convert

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "import/import.h"
 #include "scene/procedural.h"
+#include "shared_data.h"
 
 namespace heliodon::convert {
 namespace {
@@ -46,6 +48,16 @@ TEST(ClosedMesh, WithoutAnyOneTriangleASphereIsOpen) {
         open.indices.erase(first, first + 3);
         EXPECT_FALSE(is_closed(open)) << triangle;
     }
+}
+
+TEST(ClosedMesh, AHoleOfLessThanAThousandthOfTheAreaStaysUnseen) {
+    Mesh scanned = tessellate(Sphere{}, 128);  // 16 128 triangles
+    scanned.indices.resize(scanned.indices.size() / 2);
+    EXPECT_FALSE(is_closed(scanned));
+    scanned = tessellate(Sphere{}, 128);
+    const auto equator = scanned.indices.begin() + static_cast<std::ptrdiff_t>(scanned.indices.size() / 2);
+    scanned.indices.erase(equator, equator + 6);
+    EXPECT_TRUE(is_closed(scanned));
 }
 
 TEST(ClosedMesh, ATriangleThatIsTurnedRoundOpensABox) {
@@ -89,6 +101,18 @@ TEST(ClosedMesh, FourFacesMayMeetInAnEdge) {
     Mesh mesh = tessellate(Box{{0, 0, 0}, {1, 1, 1}}, 4);
     append(mesh, tessellate(Box{{1, 1, 0}, {2, 2, 1}}, 4));
     EXPECT_TRUE(is_closed(mesh));
+}
+
+TEST(ClosedMesh, ScansWithAFewHolesAreClosedAndModelsOfOpenSheetsAreNot) {
+    for (const auto& [file, closed] : {std::pair("models/dragon.glb", true), std::pair("models/lucy.glb", true),
+                                       std::pair("models/suzanne.glb", false), std::pair("models/teapot.obj", false)}) {
+        const auto path = tests::shared_path(file);
+        if (!path) GTEST_SKIP();
+        Warnings warnings;
+        const auto scene = load_scene(*path, {}, warnings);
+        ASSERT_TRUE(scene) << scene.error().text();
+        scene->geometries().each([&](GeometryId, const Geometry& geometry) { EXPECT_EQ(is_closed(geometry.mesh), closed) << file; });
+    }
 }
 
 }  // namespace
