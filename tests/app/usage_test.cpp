@@ -14,7 +14,7 @@ TEST_F(Usage, VersionIsPrinted) {
 TEST_F(Usage, HelpStandsOnStandardOutputForEveryCommand) {
     const Ended overview = run({"--help"});
     EXPECT_EQ(overview.code, 0);
-    for (const std::string command : {"view", "render", "measure", "compare", "info", "devices"}) {
+    for (const std::string command : {"view", "render", "measure", "compare", "bench", "info", "devices"}) {
         EXPECT_NE(overview.output.find(command), std::string::npos) << command;
         const Ended help = run({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;
@@ -68,6 +68,14 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongUsage{"AovOfNoVolume", render_with({"--aov", "albedo,voxels"}), "--gi vct"},
                     WrongUsage{"AovOfNoVolumeAskedFor", render_with({"--gi", "none", "--aov", "ao"}), "--gi vct"},
                     WrongUsage{"AovOfNoVolumeInPaths", render_with({"--engine", "path", "--aov", "opacity"}), "--gi vct"},
+                    WrongUsage{"BenchWithoutName", {"bench"}, "NAME"},
+                    WrongUsage{"BenchUnknown", {"bench", "quake"}, "\"quake\""},
+                    WrongUsage{"BenchGrid", {"bench", "natus", "--voxels", "64,100"}, "\"100\""},
+                    WrongUsage{"BenchGridTwice", {"bench", "natus", "--voxels", "64,64"}, "once"},
+                    WrongUsage{"BenchFramesZero", {"bench", "natus", "--frames", "0"}, "--frames"},
+                    WrongUsage{"BenchTimeNegative", {"bench", "natus", "--path-seconds", "-1"}, "--path-seconds"},
+                    WrongUsage{"BenchSize", {"bench", "natus", "--size", "64"}, "\"64\""},
+                    WrongUsage{"BenchOverridesOfTheBuiltInScene", {"bench", "natus", "--set", "render.bounces=1"}, "--scene"},
                     WrongUsage{"ToneCurve", render_with({"--tonemap", "aces"}), "\"aces\""},
                     WrongUsage{"Exposure", render_with({"--ev100", "bright"}), "\"bright\""},
                     WrongUsage{"AutomaticExposure", render_with({"--ev100", "auto"}), "automatic"},

@@ -7,10 +7,7 @@
 
 namespace heliodon::cli {
 
-CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument) {
-    CLI::Option* scene =
-        command.add_option("SCENE", argument.path, "A scene file (*.heliodon.json) or a model (.obj, .gltf, .glb)")
-            ->required();
+void add_override_option(CLI::App& command, SceneArgument& argument) {
     command
         .add_option("--set", argument.overrides,
                     "PATH=VALUE: override a field of the scene file (render.gi=none, nodes.bulb.light.flux_lm=900)")
@@ -19,6 +16,13 @@ CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument) {
             const std::size_t equals = text.find('=');
             return equals == std::string::npos || equals == 0 ? "expected PATH=VALUE, found \"" + text + "\"" : "";
         });
+}
+
+CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument) {
+    CLI::Option* scene =
+        command.add_option("SCENE", argument.path, "A scene file (*.heliodon.json) or a model (.obj, .gltf, .glb)")
+            ->required();
+    add_override_option(command, argument);
     return scene;
 }
 

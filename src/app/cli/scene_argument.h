@@ -19,6 +19,8 @@ struct SceneArgument {
     std::vector<std::string> overrides;
 };
 
+/// Declares `--set` alone.
+void add_override_option(CLI::App& command, SceneArgument& argument);
 /// Declares both and returns SCENE, which is required unless the caller says otherwise.
 CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument);
 [[nodiscard]] Result<Scene> load(const SceneArgument& argument, Warnings& warnings);

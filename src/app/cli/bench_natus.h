@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/bench_equal_error.h"
+#include "app/cli/option_values.h"
+#include "app/cli/scene_argument.h"
+#include "core/result.h"
+#include "realtime/renderer.h"
+
+namespace heliodon::cli {
+
+/// One of the five published pictures: its effects, and its frame on a GeForce GTX 960 with 128³ voxels at 1024×768.
+struct NatusTest {
+    int number = 0;
+    const char* shows = "";
+    bool emissive = false;  ///< of the scene that only its wall lights
+    bool gi = true, shadows_by_cones = false, occlusion = false;
+    float bulb_radius_m = 0;
+    std::optional<double> published_ms;
+};
+inline constexpr std::array<NatusTest, 5> natus_tests{{
+    {1, "direct light", false, false, false, false, 0, 4.09},
+    {2, "GI with reflection and refraction", false, true, false, false, 0, 18.23},
+    {3, "2 + soft shadows by cones", false, true, true, false, 0.05f, 22.36},
+    {4, "3 + ambient occlusion", false, true, true, true, 0.05f, 22.34},
+    {5, "emissive wall only", true, true, true, true, 0, std::nullopt},
+}};
+
+/// GPU milliseconds a frame, by step: medians.
+struct NatusSteps {
+    double shadow_map_ms = 0, voxelize_ms = 0, filter_ms = 0, cone_trace_ms = 0, rest_ms = 0;
+};
+/// The same steps on a GeForce GTX 960; the rest was not published.
+inline constexpr NatusSteps published_natus_steps{0.30, 1.96, 0.23, 22.83, 0};
+
+struct NatusTiming {
+    NatusTest test;
+    int voxels = 0;               ///< an edge; 0 where there is no volume
+    bool each_frame = false;      ///< surfaces were voxelized in every frame
+    double mean_ms = 0, median_ms = 0;
+    NatusSteps steps;
+};
+
+struct NatusOptions {
+    SceneArgument scene;  ///< no path: the built-in scene
+    Size size;
+    std::vector<int> voxels{256, 128, 64};
+    int frames = 50;
+    double path_seconds = 60;  ///< of the reference; 0: no comparison with the path tracer
+    RealtimeSettings device;
+};
+
+struct NatusReport {
+    std::string scene, device;
+    std::size_t triangles = 0;
+    std::vector<NatusTiming> timings;
+    std::optional<EqualError> equal_error;
+};
+
+/// Measures every test of the scene (those that its lights allow) with every grid. Progress goes to standard error.
+[[nodiscard]] Result<NatusReport> run_natus(const NatusOptions& options);
+
+[[nodiscard]] std::string as_text(const NatusReport& report, const NatusOptions& options);
+[[nodiscard]] std::string as_json(const NatusReport& report, const NatusOptions& options);
+
+}  // namespace heliodon::cli

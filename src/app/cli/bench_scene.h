@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene/scene.h"
+
+namespace heliodon::cli {
+
+/// The stand-in for the published test scene, built in code: a box 2 m wide, open to the camera, with a torus knot of
+/// mirror metal, a sphere of glass (index of refraction 3), a glazed box and a teapot of green clay; some 450 thousand
+/// triangles as there. Lit by a bulb of 100 cd named "bulb" or, `emissive`, by its back wall of 60 cd/m² alone.
+[[nodiscard]] Scene natus_scene(bool emissive);
+
+}  // namespace heliodon::cli
