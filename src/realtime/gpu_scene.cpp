@@ -352,6 +352,7 @@ void GpuScene::classify() {
 
 Result<RealtimeUpdate> GpuScene::update(const Scene& scene) {
     convert::FlatChanges changes = flat_.update(scene);
+    surfaces_.follow(flat_, changes);
     RealtimeUpdate update;
     const std::uint64_t bytes_before = device_.bytes_uploaded();
     if (changes.everything) {

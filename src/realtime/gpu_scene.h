@@ -10,6 +10,7 @@
 #include "gpu/commands.h"
 #include "gpu/device.h"
 #include "passes/common/frame_shared.h"
+#include "realtime/moving_instances.h"
 #include "realtime/range_allocator.h"
 #include "realtime/renderer.h"
 #include "scene/scene.h"
@@ -69,6 +70,10 @@ public:
     /// Goes up when the sky or its picture changed.
     [[nodiscard]] std::uint64_t sky_revision() const { return sky_revision_; }
     [[nodiscard]] std::uint64_t light_revision() const { return light_revision_; }
+    /// Goes up when anything changed that voxelization reads: instances, geometry, materials and their textures.
+    [[nodiscard]] std::uint64_t surface_revision() const { return surfaces_.revision(); }
+    /// Which instances changed, and when.
+    [[nodiscard]] const MovingInstances& surfaces() const { return surfaces_; }
     [[nodiscard]] std::optional<std::uint32_t> sky_slot() const;
 
 private:
@@ -105,6 +110,7 @@ private:
     std::vector<std::optional<LoadedTexture>> textures_;
     std::vector<std::uint32_t> light_shadows_;
     SkyMaps sky_maps_;
+    MovingInstances surfaces_;
     Bounds bounds_;
     bool compact_ = false;  // convert.vertex_precision
     bool has_tested_ = false, has_blended_ = false;
