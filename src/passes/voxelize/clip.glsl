@@ -13,17 +13,19 @@ struct Polygon {
 Polygon clip_half_space(Polygon polygon, int axis, float plane, float side) {
     Polygon kept;
     kept.count = 0;
+    vec3 a = polygon.corners[polygon.count - 1];
+    float outside_a = side * (a[axis] - plane);
     for (int i = 0; i < polygon.count; ++i) {
-        const vec3 a = polygon.corners[i];
-        const vec3 b = polygon.corners[i + 1 == polygon.count ? 0 : i + 1];
-        const float outside_a = side * (a[axis] - plane);
+        const vec3 b = polygon.corners[i];
         const float outside_b = side * (b[axis] - plane);
-        if (outside_a <= 0.0f && kept.count < most_corners) kept.corners[kept.count++] = a;
         if (outside_a * outside_b < 0.0f && kept.count < most_corners) {
             vec3 cut = mix(a, b, outside_a / (outside_a - outside_b));
             cut[axis] = plane;
             kept.corners[kept.count++] = cut;
         }
+        if (outside_b <= 0.0f && kept.count < most_corners) kept.corners[kept.count++] = b;
+        a = b;
+        outside_a = outside_b;
     }
     return kept;
 }
@@ -37,9 +39,14 @@ vec4 centroid_and_area(vec3 p0, vec3 p1, vec3 p2, vec3 voxel) {
     polygon.count = 3;
     const vec3 low = min(polygon.corners[0], min(polygon.corners[1], polygon.corners[2]));
     const vec3 high = max(polygon.corners[0], max(polygon.corners[1], polygon.corners[2]));
-    for (int axis = 0; axis < 3; ++axis) {
-        if (low[axis] < 0.0f) polygon = clip_half_space(polygon, axis, 0.0f, -1.0f);
-        if (high[axis] > 1.0f) polygon = clip_half_space(polygon, axis, 1.0f, 1.0f);
+    // A bit a plane that the triangle crosses: low x y z, high x y z.
+    uint planes = 0u;
+    for (uint axis = 0u; axis < 3u; ++axis)
+        planes |= uint(low[axis] < 0.0f) << axis | uint(high[axis] > 1.0f) << (axis + 3u);
+    while (planes != 0u && polygon.count > 0) {
+        const int plane = findLSB(planes);
+        planes &= planes - 1u;
+        polygon = clip_half_space(polygon, plane % 3, plane < 3 ? 0.0f : 1.0f, plane < 3 ? -1.0f : 1.0f);
     }
     vec3 moment = vec3(0.0f);
     float area = 0.0f;
