@@ -1,7 +1,7 @@
 // What both languages compute for case `i`: every header of the shading room on pseudo-random input.
 #ifndef HELIODON_TESTS_AGREEMENT_CASE_H
 #define HELIODON_TESTS_AGREEMENT_CASE_H
-#include "shading/environment.h"
+#include "shading/cone.h"
 #include "shading/light.h"
 #include "shading/material_eval.h"
 #include "shading/octahedral.h"
@@ -10,7 +10,7 @@
 #include "shading/tone.h"
 SHADING_BEGIN
 
-SHADING_CONST uint agreement_values = 16u;  // vec4 a case
+SHADING_CONST uint agreement_values = 19u;  // vec4 a case
 
 SHADING_FN Surface agreement_surface(uint i) {
     vec4 a = random4(i, 0u, 0u, 1u);
@@ -111,6 +111,24 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
         Frame frame = frame_from_normal(wo);
         return vec4(perturb_bump(wo, frame.tangent + wo * 0.1f, frame.bitangent * v.w, v.x, v.y),
                     sample_disk(vec2(v)).x);
+    }
+    if (k == 15u) {
+        Cone cone = specular_cone(wo, 0.01f + 0.9f * v.x);
+        return vec4(cone.direction, cone.one_minus_cos);
+    }
+    if (k == 16u) {
+        Cone cone = diffuse_cone(i % 9u, i % 4u, 4u, vec2(v));
+        return vec4(cone.direction, cone.tan_half_angle);
+    }
+    if (k == 17u) {
+        // Into the denser side: towards the thinner, a facet at the critical angle may fall to either side.
+        Cone cone;
+        bool refracts = refraction_cone(wo, 0.01f + 0.9f * v.x, 1.1f + v.y, cone);
+        return vec4(cone.direction, refracts ? cone.one_minus_cos : -1.0f);
+    }
+    if (k == 18u) {
+        LightData light = agreement_light(i);
+        return vec4(light_cone_tan(light, vec3(0.3f, -0.2f, 0.1f)));
     }
     return v;
 }
