@@ -2,10 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 // Numbers the voxels of small triangles and lists the tiles of large ones; then, run over the tiles, numbers theirs.
 #include "passes/voxelize/voxel_mark.glsl"
-#include "passes/voxelize/voxel_walk.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 19, std430) buffer Tiles { VoxelTile tiles[]; };
+#include "passes/voxelize/voxel_walk.glsl"
 
 /// The triangle's edges as seen along its dominant axis: xy towards its inside, dot(xy, position) ≥ z there.
 vec3 inward_edge(vec2 a, vec2 b, float turn) {
@@ -47,13 +47,16 @@ void list_tiles(VoxelTriangle triangle) {
 }
 
 void main() {
-    if (tiles_alone) {
-        const uint tile = linear_group();
-        if (tile < header.tile_count) walk_tile(tiles[tile]);
+    VoxelTriangle triangle;
+    const bool large = push.over_tiles != 0u;
+    if (large ? !find_column(triangle) : !find_triangle(triangle)) return;
+    if (!large && !is_small(triangle)) {
+        list_tiles(triangle);
         return;
     }
-    VoxelTriangle triangle;
-    if (!find_triangle(triangle)) return;
-    if (is_small(triangle)) walk_box(triangle);
-    else list_tiles(triangle);
+    ivec3 voxel = triangle.low;
+    if (any(greaterThan(triangle.low, triangle.high))) return;
+    do {
+        if (near_plane(triangle, voxel)) mark(triangle, voxel);
+    } while (next_voxel(triangle, voxel));
 }

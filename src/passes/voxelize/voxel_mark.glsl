@@ -8,7 +8,7 @@ layout(set = 0, binding = 16, std430) buffer Numbers { VoxelHeader header; uint 
 layout(set = 0, binding = 17, std430) writeonly buffer Cells { uint record_cell[]; };
 layout(push_constant) uniform Push { VoxelizeConstants push; };
 
-void visit(VoxelTriangle triangle, ivec3 voxel) {
+void mark(VoxelTriangle triangle, ivec3 voxel) {
     const uint size = push.grid.size;
     const uint place = uint(voxel.x) + size * (uint(voxel.y) + size * uint(voxel.z));
     if (voxel_number[place] != 0u) return;

@@ -73,6 +73,7 @@ struct VoxelizeConstants {
     uint triangle_count;
     uint record_capacity;
     uint tile_capacity;
+    uint over_tiles;  // the dispatch takes the tiles of large triangles, not all triangles
 };
 
 // A record has six faces (+x −x +y −y +z −z). A surface counts for the faces that it is seen from, with the area

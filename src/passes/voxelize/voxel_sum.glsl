@@ -91,7 +91,7 @@ void add_to_face(uint first, VoxelSurface surface, bool black, vec3 normal, vec3
         add(first + voxel_field_emissive_area, area * surface.opacity, rounding);
 }
 
-void visit(VoxelTriangle triangle, ivec3 voxel) {
+void sum(VoxelTriangle triangle, ivec3 voxel) {
     const uint size = push.grid.size;
     const uint place = uint(voxel.x) + size * (uint(voxel.y) + size * uint(voxel.z));
     const uint number = voxel_number[place];

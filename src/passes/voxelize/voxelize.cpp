@@ -35,14 +35,15 @@ struct Voxelization {
     VoxelSurfaces surfaces;
     graph::BufferHandle listed, tile_arguments;
 
-    [[nodiscard]] VoxelizeConstants constants() const {
-        return {inputs.grid, inputs.range_count, inputs.triangle_count, surfaces.record_capacity, surfaces.tile_capacity};
+    [[nodiscard]] VoxelizeConstants constants(bool over_tiles) const {
+        return {inputs.grid,           inputs.range_count, inputs.triangle_count, surfaces.record_capacity,
+                surfaces.tile_capacity, over_tiles ? 1u : 0u};
     }
     /// A compute pass over `shader`: `indirect` arguments, or all triangles in groups of 64 where there are none.
     struct Step {
         const char* name;
         const char* shader;
-        bool tiles_alone = false;
+        bool over_tiles = false;
         graph::BufferHandle indirect{};
         VkDeviceSize indirect_offset = 0;
         bool once = false;  ///< a single workgroup
@@ -52,7 +53,7 @@ struct Voxelization {
 };
 
 Result<void> Voxelization::add(const Step& step, const std::function<void(PassBuilder&)>& setup) const {
-    auto pipeline = pipelines.compute(step.shader, step.tiles_alone ? gpu::Specialization{{0, 1}} : gpu::Specialization{});
+    auto pipeline = pipelines.compute(step.shader);
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         step.name, PassKind::compute,
@@ -64,7 +65,7 @@ Result<void> Voxelization::add(const Step& step, const std::function<void(PassBu
             std::vector<NumberedBinding> own{{11, *self.inputs.shading_tables}, {12, *self.inputs.triangle_ranges}};
             for (const auto& [binding, handle] : step.buffers) own.emplace_back(binding, context.buffer(handle));
             const auto bindings = select_bindings(*pipeline, self.scene, own);
-            const VoxelizeConstants push = self.constants();
+            const VoxelizeConstants push = self.constants(step.over_tiles);
             if (step.indirect)
                 context.commands.dispatch_indirect(*pipeline, push, bindings, context.buffer(step.indirect), step.indirect_offset);
             else
@@ -112,7 +113,7 @@ Result<void> add_mark(const Voxelization& self) {
     if (auto done = self.add(step, uses); !done) return done;
     if (auto done = add_arguments(self, "voxelize tile arguments"); !done) return done;
     step.name = "voxelize mark large";
-    step.tiles_alone = true;
+    step.over_tiles = true;
     step.indirect = self.tile_arguments;
     const auto uses_of_tiles = [&](PassBuilder& pass) {
         pass.read_write(s.numbers, Usage::storage_read_write);
@@ -148,7 +149,7 @@ Result<void> add_sum(const Voxelization& self) {
     };
     if (auto done = self.add(step, uses); !done) return done;
     step.name = "voxelize sum large";
-    step.tiles_alone = true;
+    step.over_tiles = true;
     step.indirect = self.tile_arguments;
     return self.add(step, uses);
 }
