@@ -47,16 +47,16 @@ Action declare_bench(CLI::App& command) {
                        "Scene file instead of the built-in scene; the one lit by its wall is NAME-emissive beside it");
     add_override_option(command, natus.scene);
     command.add_option_function<std::string>(
-        "--size", [&natus](Text text) { natus.size = read_size(text); }, "WIDTHxHEIGHT; default 1024x768");
+        "--size", [&natus](Text text) { natus.timing.size = read_size(text); }, "WIDTHxHEIGHT; default 1024x768");
     command.add_option_function<std::string>(
         "--voxels", [&natus](Text text) { natus.voxels = read_grids(text); },
         "Grids to measure, voxels an edge; default 256,128,64");
-    command.add_option("--frames", natus.frames, "Frames to time of each, after warm-up; default 50")
+    command.add_option("--frames", natus.timing.frames, "Frames to time of each, after warm-up; default 50")
         ->check(check_positive);
     command.add_option("--path-seconds", natus.path_seconds,
                        "How long to trace the reference for the comparison at equal error; default 60, 0: none")
         ->check(check_not_negative);
-    command.add_option("--device", natus.device.device, "Vulkan device, by number or part of its name");
+    command.add_option("--device", natus.timing.device.device, "Vulkan device, by number or part of its name");
     command.add_flag("--json", options->json, "Print JSON");
     return [options] { return bench(*options); };
 }

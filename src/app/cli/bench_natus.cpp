@@ -1,8 +1,5 @@
 #include "app/cli/bench_natus.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <string_view>
 #include <utility>
@@ -12,23 +9,6 @@
 
 namespace heliodon::cli {
 namespace {
-
-/// The passes of each step, by how their names begin.
-constexpr std::pair<std::string_view, double NatusSteps::*> step_of_passes[] = {
-    {"shadow", &NatusSteps::shadow_map_ms},   {"voxelize", &NatusSteps::voxelize_ms},
-    {"inject", &NatusSteps::filter_ms},       {"gather", &NatusSteps::filter_ms},
-    {"radiance", &NatusSteps::filter_ms},     {"filter", &NatusSteps::filter_ms},
-    {"cone trace", &NatusSteps::cone_trace_ms}};
-
-NatusSteps steps_of(const std::vector<PassTime>& passes) {
-    NatusSteps steps;
-    for (const PassTime& pass : passes) {
-        const auto found = std::find_if(std::begin(step_of_passes), std::end(step_of_passes),
-                                        [&](const auto& step) { return pass.name.starts_with(step.first); });
-        steps.*(found == std::end(step_of_passes) ? &NatusSteps::rest_ms : found->second) += pass.gpu_ms;
-    }
-    return steps;
-}
 
 bool has_lights(const Scene& scene) {
     bool found = false;
@@ -84,60 +64,6 @@ std::vector<NatusTiming> plan(bool emissive, const std::vector<int>& voxels) {
     return timings;
 }
 
-/// One scene on one device, timed and compared with the path tracer.
-class Bench {
-public:
-    Bench(Scene& scene, const NatusOptions& options, const std::string& path) : scene_(scene), options_(options), path_(path) {
-        picture_.width = options.size.width;
-        picture_.height = options.size.height;
-        picture_.samples = 1;
-        picture_.frames_timed = options.frames;
-    }
-    Result<void> open() {
-        SceneArgument argument = options_.scene;
-        argument.path = path_;
-        auto camera = choose_camera(scene_, argument, "");
-        if (!camera) return tl::unexpected(camera.error());
-        camera_ = *camera;
-        auto renderer = RealtimeRenderer::create(options_.device);
-        if (!renderer) return tl::unexpected(renderer.error());
-        renderer_.emplace(std::move(*renderer));
-        return {};
-    }
-    Result<Picture> time(NatusTiming& timing, std::string& device) {
-        set_up(scene_, timing);
-        picture_.gi = scene_.render_settings().gi;
-        RealtimeStatistics numbers;
-        auto picture = renderer_->render(scene_, camera_, picture_, &numbers);
-        if (interrupted()) return fail("", "interrupted");
-        if (!picture) return picture;
-        timing.mean_ms = numbers.gpu_ms_mean;
-        timing.median_ms = numbers.gpu_ms_total;
-        timing.steps = steps_of(numbers.passes);
-        device = numbers.device;
-        return picture;
-    }
-    Result<EqualError> compare_with_paths(const NatusTiming& timing) {
-        NatusTiming again = timing;
-        std::string device;
-        const auto picture = time(again, device);
-        if (!picture) return tl::unexpected(picture.error());
-        auto result = find_equal_error(scene_, camera_, picture->image, options_.path_seconds);
-        if (!result) return result;
-        result->voxels = timing.voxels;
-        result->frame_ms = timing.mean_ms;
-        return result;
-    }
-
-private:
-    Scene& scene_;
-    const NatusOptions& options_;
-    std::string path_;
-    Camera camera_;
-    RealtimeOptions picture_;
-    std::optional<RealtimeRenderer> renderer_;
-};
-
 /// Test 4 with every effect, voxelized in each frame, at 128³ or else the first grid asked for.
 const NatusTiming* published_comparison(const std::vector<NatusTiming>& timings) {
     const NatusTiming* chosen = nullptr;
@@ -146,26 +72,39 @@ const NatusTiming* published_comparison(const std::vector<NatusTiming>& timings)
     return chosen;
 }
 
-Result<void> measure(Scene scene, const std::string& path, const NatusOptions& options, NatusReport& report) {
-    Bench bench(scene, options, path);
-    if (auto opened = bench.open(); !opened) return opened;
+Result<void> compare_with_paths(FrameTimer& timer, Scene& scene, const NatusTiming& timing, const NatusOptions& options,
+                                NatusReport& report) {
+    set_up(scene, timing);
+    Picture picture;
+    if (const auto timed = timer.time(options.timing.size, &picture); !timed) return tl::unexpected(timed.error());
+    auto result = find_equal_error(scene, timer.camera(), picture.image, options.path_seconds);
+    if (!result) return tl::unexpected(result.error());
+    result->voxels = timing.voxels;
+    result->frame_ms = timing.frame.mean_ms;
+    report.equal_error = *result;
+    return {};
+}
+
+Result<void> measure(Scene scene, const std::string& name, const NatusOptions& options, NatusReport& report) {
+    auto timer = FrameTimer::create(scene, name, options.timing);
+    if (!timer) return tl::unexpected(timer.error());
     std::vector<NatusTiming> timings = plan(!has_lights(scene), options.voxels);
     {
         ProgressBar bar("bench");
         const Progress progress = bar.callback();
         for (std::size_t i = 0; i < timings.size(); ++i) {
             if (!progress(static_cast<double>(i) / timings.size())) return fail("", "interrupted");
-            if (auto timed = bench.time(timings[i], report.device); !timed) return tl::unexpected(timed.error());
+            set_up(scene, timings[i]);
+            const auto timed = timer->time(options.timing.size);
+            if (!timed) return tl::unexpected(timed.error());
+            timings[i].frame = *timed;
         }
     }
-    const NatusTiming* compared = published_comparison(timings);
-    if (compared && options.path_seconds > 0) {
-        auto result = bench.compare_with_paths(*compared);
-        if (!result) return tl::unexpected(result.error());
-        report.equal_error = *result;
-    }
+    report.device = timer->device();
     report.timings.insert(report.timings.end(), timings.begin(), timings.end());
-    return {};
+    const NatusTiming* compared = published_comparison(timings);
+    if (!compared || options.path_seconds == 0) return {};
+    return compare_with_paths(*timer, scene, *compared, options, report);
 }
 
 /// The scene that only its wall lights: NAME-emissive.heliodon.json beside NAME.heliodon.json, where there is one.

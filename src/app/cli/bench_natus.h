@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "app/cli/bench_equal_error.h"
-#include "app/cli/option_values.h"
+#include "app/cli/bench_timing.h"
 #include "app/cli/scene_argument.h"
 #include "core/result.h"
-#include "realtime/renderer.h"
 
 namespace heliodon::cli {
 
@@ -30,28 +29,21 @@ inline constexpr std::array<NatusTest, 5> natus_tests{{
     {5, "emissive wall only", true, true, true, true, 0, std::nullopt},
 }};
 
-/// GPU milliseconds a frame, by step: medians.
-struct NatusSteps {
-    double shadow_map_ms = 0, voxelize_ms = 0, filter_ms = 0, cone_trace_ms = 0, rest_ms = 0;
-};
-/// The same steps on a GeForce GTX 960; the rest was not published.
-inline constexpr NatusSteps published_natus_steps{0.30, 1.96, 0.23, 22.83, 0};
+/// The steps of a frame on a GeForce GTX 960; the rest was not published.
+inline constexpr FrameSteps published_natus_steps{0.30, 1.96, 0.23, 22.83, 0};
 
 struct NatusTiming {
     NatusTest test;
-    int voxels = 0;               ///< an edge; 0 where there is no volume
-    bool each_frame = false;      ///< surfaces were voxelized in every frame
-    double mean_ms = 0, median_ms = 0;
-    NatusSteps steps;
+    int voxels = 0;           ///< an edge; 0 where there is no volume
+    bool each_frame = false;  ///< surfaces were voxelized in every frame
+    FrameTime frame;
 };
 
 struct NatusOptions {
     SceneArgument scene;  ///< no path: the built-in scene
-    Size size;
+    TimingOptions timing;
     std::vector<int> voxels{256, 128, 64};
-    int frames = 50;
     double path_seconds = 60;  ///< of the reference; 0: no comparison with the path tracer
-    RealtimeSettings device;
 };
 
 struct NatusReport {

@@ -14,11 +14,11 @@ using nlohmann::ordered_json;
 constexpr int published_voxels = 128;
 constexpr double published_path_seconds = 18 * 60, published_frame_ms = 20;  // "18 minutes against 20 ms"
 
-constexpr std::pair<const char*, double NatusSteps::*> step_names[] = {{"shadow map", &NatusSteps::shadow_map_ms},
-                                                                       {"voxelize", &NatusSteps::voxelize_ms},
-                                                                       {"filter", &NatusSteps::filter_ms},
-                                                                       {"cone trace", &NatusSteps::cone_trace_ms},
-                                                                       {"rest", &NatusSteps::rest_ms}};
+constexpr std::pair<const char*, double FrameSteps::*> step_names[] = {{"shadow map", &FrameSteps::shadow_map_ms},
+                                                                       {"voxelize", &FrameSteps::voxelize_ms},
+                                                                       {"filter", &FrameSteps::filter_ms},
+                                                                       {"cone trace", &FrameSteps::cone_trace_ms},
+                                                                       {"rest", &FrameSteps::rest_ms}};
 
 const NatusTiming* find(const NatusReport& report, int test, int voxels, bool each_frame) {
     for (const NatusTiming& timing : report.timings)
@@ -27,7 +27,7 @@ const NatusTiming* find(const NatusReport& report, int test, int voxels, bool ea
 }
 
 std::string cell(const NatusTiming* timing) {
-    return timing ? fmt::format("{:.2f} ({:.2f})", timing->mean_ms, timing->median_ms) : "";
+    return timing ? fmt::format("{:.2f} ({:.2f})", timing->frame.mean_ms, timing->frame.median_ms) : "";
 }
 
 std::string grid(int voxels) {
@@ -65,7 +65,7 @@ std::string step_table(const NatusReport& report, const std::vector<int>& grids)
         text += fmt::format("{:<36}", name);
         for (const int voxels : grids)
             if (const NatusTiming* timing = find(report, test, voxels, true))
-                text += fmt::format("{:>12.3f}", timing->steps.*step);
+                text += fmt::format("{:>12.3f}", timing->frame.steps.*step);
         const double published = published_natus_steps.*step;
         text += published > 0 ? fmt::format("{:>16.2f}\n", published) : fmt::format("{:>16}\n", "-");
     }
@@ -93,7 +93,7 @@ ordered_json optional_json(const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json();
 }
 
-ordered_json steps_json(const NatusSteps& steps) {
+ordered_json steps_json(const FrameSteps& steps) {
     return {{"shadow_map_ms", steps.shadow_map_ms},
             {"voxelize_ms", steps.voxelize_ms},
             {"filter_ms", steps.filter_ms},
@@ -105,9 +105,9 @@ ordered_json timing_json(const NatusTiming& timing) {
     ordered_json entry = {{"test", timing.test.number}, {"shows", timing.test.shows}};
     entry["voxels"] = timing.voxels > 0 ? ordered_json(timing.voxels) : ordered_json();
     entry["revoxelize"] = !timing.test.gi ? ordered_json() : ordered_json(timing.each_frame ? "always" : "once");
-    entry["frame_mean_ms"] = timing.mean_ms;
-    entry["frame_median_ms"] = timing.median_ms;
-    entry["steps"] = steps_json(timing.steps);
+    entry["frame_mean_ms"] = timing.frame.mean_ms;
+    entry["frame_median_ms"] = timing.frame.median_ms;
+    entry["steps"] = steps_json(timing.frame.steps);
     const bool published = !timing.test.gi || (timing.voxels == published_voxels && timing.each_frame);
     entry["published_gtx_960_ms"] = published ? optional_json(timing.test.published_ms) : ordered_json();
     return entry;
@@ -138,7 +138,7 @@ ordered_json equal_error_json(const EqualError& e) {
 std::string as_text(const NatusReport& report, const NatusOptions& options) {
     std::string text = fmt::format(
         "natus: {} ({} triangles), {}, {}x{}\nmilliseconds a frame on the GPU, mean (median) of {} frames\n\n",
-        report.scene, report.triangles, report.device, options.size.width, options.size.height, options.frames);
+        report.scene, report.triangles, report.device, options.timing.size.width, options.timing.size.height, options.timing.frames);
     text += frame_table(report, options.voxels) + "\n" + step_table(report, options.voxels);
     if (report.equal_error) text += "\n" + equal_error_text(*report.equal_error);
     return text;
@@ -153,9 +153,9 @@ std::string as_json(const NatusReport& report, const NatusOptions& options) {
                               {"scene", report.scene},
                               {"triangles", report.triangles},
                               {"device", report.device},
-                              {"width", options.size.width},
-                              {"height", options.size.height},
-                              {"frames_timed", options.frames},
+                              {"width", options.timing.size.width},
+                              {"height", options.timing.size.height},
+                              {"frames_timed", options.timing.frames},
                               {"timings", std::move(timings)},
                               {"published_steps_gtx_960", std::move(published)},
                               {"equal_error", report.equal_error ? equal_error_json(*report.equal_error) : ordered_json()}};

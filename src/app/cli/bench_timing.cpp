@@ -1,0 +1,59 @@
+#include "app/cli/bench_timing.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "app/cli/scene_argument.h"
+#include "app/cli/terminal.h"
+
+namespace heliodon::cli {
+namespace {
+
+/// The passes of each step, by how their names begin.
+constexpr std::pair<std::string_view, double FrameSteps::*> step_of_passes[] = {
+    {"shadow", &FrameSteps::shadow_map_ms},   {"voxelize", &FrameSteps::voxelize_ms},
+    {"inject", &FrameSteps::filter_ms},       {"gather", &FrameSteps::filter_ms},
+    {"radiance", &FrameSteps::filter_ms},     {"filter", &FrameSteps::filter_ms},
+    {"cone trace", &FrameSteps::cone_trace_ms}};
+
+}  // namespace
+
+FrameSteps steps_of(const std::vector<PassTime>& passes) {
+    FrameSteps steps;
+    for (const PassTime& pass : passes) {
+        const auto found = std::find_if(std::begin(step_of_passes), std::end(step_of_passes),
+                                        [&](const auto& step) { return pass.name.starts_with(step.first); });
+        steps.*(found == std::end(step_of_passes) ? &FrameSteps::rest_ms : found->second) += pass.gpu_ms;
+    }
+    return steps;
+}
+
+FrameTimer::FrameTimer(const Scene& scene, const Camera& camera, int frames, RealtimeRenderer renderer)
+    : scene_(&scene), camera_(camera), renderer_(std::move(renderer)), frames_(frames) {}
+
+Result<FrameTimer> FrameTimer::create(const Scene& scene, const std::string& name, const TimingOptions& options) {
+    const auto camera = choose_camera(scene, {name, {}}, "");
+    if (!camera) return tl::unexpected(camera.error());
+    auto renderer = RealtimeRenderer::create(options.device);
+    if (!renderer) return tl::unexpected(renderer.error());
+    return FrameTimer(scene, *camera, options.frames, std::move(*renderer));
+}
+
+Result<FrameTime> FrameTimer::time(Size size, Picture* picture) {
+    RealtimeOptions options;
+    options.width = size.width;
+    options.height = size.height;
+    options.samples = 1;
+    options.gi = scene_->render_settings().gi;
+    options.frames_timed = frames_;
+    RealtimeStatistics numbers;
+    auto rendered = renderer_.render(*scene_, camera_, options, &numbers);
+    if (interrupted()) return fail("", "interrupted");
+    if (!rendered) return tl::unexpected(rendered.error());
+    if (picture) *picture = std::move(*rendered);
+    device_ = numbers.device;
+    return FrameTime{numbers.gpu_ms_mean, numbers.gpu_ms_total, steps_of(numbers.passes)};
+}
+
+}  // namespace heliodon::cli
