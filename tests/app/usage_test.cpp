@@ -74,6 +74,8 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongUsage{"BenchGridTwice", {"bench", "natus", "--voxels", "64,64"}, "once"},
                     WrongUsage{"BenchFramesZero", {"bench", "natus", "--frames", "0"}, "--frames"},
                     WrongUsage{"BenchTimeNegative", {"bench", "natus", "--path-seconds", "-1"}, "--path-seconds"},
+                    WrongUsage{"BenchSeries", {"bench", "cost", "--series", "lights,dust"}, "\"dust\""},
+                    WrongUsage{"BenchSceneOfCost", {"bench", "cost", "--scene", "s.heliodon.json"}, "--scene"},
                     WrongUsage{"BenchSize", {"bench", "natus", "--size", "64"}, "\"64\""},
                     WrongUsage{"BenchOverridesOfTheBuiltInScene", {"bench", "natus", "--set", "render.bounces=1"}, "--scene"},
                     WrongUsage{"ToneCurve", render_with({"--tonemap", "aces"}), "\"aces\""},

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "app/cli/bench_cost.h"
 #include "app/cli/bench_natus.h"
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
@@ -12,24 +13,47 @@ namespace {
 struct BenchOptions {
     std::string name;
     NatusOptions natus;
+    std::vector<std::string> series{std::begin(cost_series), std::end(cost_series)};
     bool json = false;
 };
+
+void refuse_repeats(const std::string& option, const auto& list, const std::string& text) {
+    for (auto item = list.begin(); item != list.end(); ++item)
+        if (std::find(list.begin(), item, *item) != item)
+            throw CLI::ValidationError(option, "expected each once, found \"" + text + "\"");
+}
 
 std::vector<int> read_grids(const std::string& text) {
     std::vector<int> grids;
     for (const std::string& grid : CLI::detail::split(text, ',')) grids.push_back(read_voxels(grid));
-    for (auto grid = grids.begin(); grid != grids.end(); ++grid)
-        if (std::find(grids.begin(), grid, *grid) != grid)
-            throw CLI::ValidationError("--voxels", "expected each grid once, found \"" + text + "\"");
+    refuse_repeats("--voxels", grids, text);
     return grids;
 }
 
-Result<void> bench(const BenchOptions& options) {
+std::vector<std::string> read_series(const std::string& text) {
+    std::vector<std::string> names = CLI::detail::split(text, ',');
+    for (const std::string& name : names)
+        if (std::find(std::begin(cost_series), std::end(cost_series), name) == std::end(cost_series))
+            throw CLI::ValidationError("--series", "expected names out of voxels, pixels, triangles, lights, found \"" + name + "\"");
+    refuse_repeats("--series", names, text);
+    return names;
+}
+
+Result<void> bench_natus(const BenchOptions& options) {
     if (options.natus.scene.path.empty() && !options.natus.scene.overrides.empty())
         throw CLI::ValidationError("--set", "expected with --scene: the built-in scene is no file");
     const auto report = run_natus(options.natus);
     if (!report) return tl::unexpected(report.error());
     return print(options.json ? as_json(*report, options.natus) : as_text(*report, options.natus));
+}
+
+Result<void> bench_cost(const BenchOptions& options) {
+    if (!options.natus.scene.path.empty())
+        throw CLI::ValidationError("--scene", "expected with natus: the cost is measured on built-in scenes");
+    const TimingOptions& timing = options.natus.timing;
+    const auto report = run_cost(timing, options.series);
+    if (!report) return tl::unexpected(report.error());
+    return print(options.json ? as_json(*report, timing) : as_text(*report, timing));
 }
 
 }  // namespace
@@ -38,27 +62,32 @@ Action declare_bench(CLI::App& command) {
     using Text = const std::string&;
     auto options = std::make_shared<BenchOptions>();
     NatusOptions& natus = options->natus;
-    command.add_option("NAME", options->name, "natus: five pictures of voxel cone tracing")
+    command
+        .add_option("NAME", options->name,
+                    "natus: five pictures of voxel cone tracing; cost: a frame's time as its work grows")
         ->required()
         ->check([](const std::string& name) {
-            return name == "natus" ? "" : "expected natus, found \"" + name + "\"";
+            return name == "natus" || name == "cost" ? "" : "expected natus or cost, found \"" + name + "\"";
         });
     command.add_option("--scene", natus.scene.path,
-                       "Scene file instead of the built-in scene; the one lit by its wall is NAME-emissive beside it");
+                       "natus: scene file instead of the built-in scene; the one lit by its wall is NAME-emissive beside it");
     add_override_option(command, natus.scene);
     command.add_option_function<std::string>(
         "--size", [&natus](Text text) { natus.timing.size = read_size(text); }, "WIDTHxHEIGHT; default 1024x768");
     command.add_option_function<std::string>(
         "--voxels", [&natus](Text text) { natus.voxels = read_grids(text); },
-        "Grids to measure, voxels an edge; default 256,128,64");
+        "natus: grids to measure, voxels an edge; default 256,128,64");
     command.add_option("--frames", natus.timing.frames, "Frames to time of each, after warm-up; default 50")
         ->check(check_positive);
     command.add_option("--path-seconds", natus.path_seconds,
-                       "How long to trace the reference for the comparison at equal error; default 60, 0: none")
+                       "natus: how long to trace the reference for the comparison at equal error; default 60, 0: none")
         ->check(check_not_negative);
+    command.add_option_function<std::string>(
+        "--series", [&series = options->series](Text text) { series = read_series(text); },
+        "cost: what grows; default voxels,pixels,triangles,lights");
     command.add_option("--device", natus.timing.device.device, "Vulkan device, by number or part of its name");
     command.add_flag("--json", options->json, "Print JSON");
-    return [options] { return bench(*options); };
+    return [options] { return options->name == "cost" ? bench_cost(*options) : bench_natus(*options); };
 }
 
 }  // namespace heliodon::cli

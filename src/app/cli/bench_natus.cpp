@@ -16,16 +16,6 @@ bool has_lights(const Scene& scene) {
     return found;
 }
 
-std::size_t triangle_count(const Scene& scene) {
-    std::size_t triangles = 0;
-    scene.nodes().each([&](NodeId, const Node& node) {
-        for (const Part& part : node.parts)
-            if (const Geometry* geometry = scene.geometries().find(part.geometry))
-                triangles += geometry->mesh.triangle_count();
-    });
-    return triangles;
-}
-
 void set_bulb_radius(Scene& scene, float radius_m) {
     std::vector<std::pair<NodeId, Light>> bulbs;
     scene.nodes().each([&](NodeId id, const Node& node) {

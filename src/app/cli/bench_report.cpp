@@ -93,14 +93,6 @@ ordered_json optional_json(const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json();
 }
 
-ordered_json steps_json(const FrameSteps& steps) {
-    return {{"shadow_map_ms", steps.shadow_map_ms},
-            {"voxelize_ms", steps.voxelize_ms},
-            {"filter_ms", steps.filter_ms},
-            {"cone_trace_ms", steps.cone_trace_ms},
-            {"rest_ms", steps.rest_ms}};
-}
-
 ordered_json timing_json(const NatusTiming& timing) {
     ordered_json entry = {{"test", timing.test.number}, {"shows", timing.test.shows}};
     entry["voxels"] = timing.voxels > 0 ? ordered_json(timing.voxels) : ordered_json();

@@ -1,5 +1,6 @@
 #include "app/cli/bench_scene.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -60,23 +61,66 @@ void add_objects(Scene& scene) {
           {0.45f, 0, 0.5f}, {0, -20, 0});
 }
 
+void add_bulb(Scene& scene, const std::string& name, glm::vec3 at, float intensity_cd) {
+    Node bulb{.name = name};
+    bulb.transform.translation = at;
+    bulb.light = Light{.type = LightType::point, .intensity = glm::vec3(intensity_cd)};
+    scene.add_node(std::move(bulb));
+}
+
+void add_camera_and_settings(Scene& scene) {
+    scene.add_camera({.name = "front", .position = {0, 1, 3.9f}, .target = {0, 1, 0}, .shutter_s = 0.125f});
+    RenderSettings settings;
+    settings.gi = "vct";
+    scene.set_render_settings(std::move(settings));
+}
+
+/// The middle of cell `index` of `edge` along one axis of the box, −1 … 1.
+float cell_middle(int index, int edge) {
+    return 2 * (static_cast<float>(index) + 0.5f) / static_cast<float>(edge) - 1;
+}
+
 }  // namespace
 
 Scene natus_scene(bool emissive) {
     Scene scene;
     add_walls(scene, emissive ? add_lambert(scene, "glowing", glm::vec3(0.2f), 60) : MaterialId{});
     add_objects(scene);
-    if (!emissive) {
-        Node bulb{.name = "bulb"};
-        bulb.transform.translation = {0, 1.3f, 0};
-        bulb.light = Light{.type = LightType::point, .intensity = glm::vec3(100)};
-        scene.add_node(std::move(bulb));
-    }
-    scene.add_camera({.name = "front", .position = {0, 1, 3.9f}, .target = {0, 1, 0}, .shutter_s = 0.125f});
-    RenderSettings settings;
-    settings.gi = "vct";
-    scene.set_render_settings(std::move(settings));
+    if (!emissive) add_bulb(scene, "bulb", {0, 1.3f, 0}, 100);
+    add_camera_and_settings(scene);
     return scene;
+}
+
+Scene crowded_scene(int copies, int lights) {
+    Scene scene;
+    add_walls(scene, {});
+    const GeometryId knot =
+        scene.add_geometry({.name = "knot", .mesh = torus_knot_mesh(2, 3, 0.9f, 0.2f, 630)});
+    const MaterialId clay = add_lambert(scene, "green clay", {0, 0.5f, 0});
+    const int edge = static_cast<int>(std::ceil(std::cbrt(copies)));
+    for (int i = 0; i < copies; ++i) {
+        Node node{.name = "knot " + std::to_string(i), .parts = {{knot, clay}}};
+        node.transform.translation = {cell_middle(i % edge, edge), 1 + cell_middle(i / edge % edge, edge),
+                                      cell_middle(i / (edge * edge), edge)};
+        node.transform.scale = glm::vec3(0.5f / static_cast<float>(edge));
+        scene.add_node(std::move(node));
+    }
+    const int row = static_cast<int>(std::ceil(std::sqrt(lights)));
+    for (int i = 0; i < lights; ++i)
+        add_bulb(scene, "bulb " + std::to_string(i), {cell_middle(i % row, row), 1.9f, cell_middle(i / row, row)},
+                 100.0f / static_cast<float>(lights));
+    add_camera_and_settings(scene);
+    return scene;
+}
+
+std::size_t triangle_count(const Scene& scene) {
+    std::size_t triangles = 0;
+    scene.nodes().each([&](NodeId, const Node& node) {
+        for (const Part& part : node.parts)
+            if (const Geometry* geometry = scene.geometries().find(part.geometry))
+                triangles += geometry->mesh.triangle_count();
+    });
+    return triangles;
 }
 
 }  // namespace heliodon::cli

@@ -29,6 +29,14 @@ FrameSteps steps_of(const std::vector<PassTime>& passes) {
     return steps;
 }
 
+nlohmann::ordered_json steps_json(const FrameSteps& steps) {
+    return {{"shadow_map_ms", steps.shadow_map_ms},
+            {"voxelize_ms", steps.voxelize_ms},
+            {"filter_ms", steps.filter_ms},
+            {"cone_trace_ms", steps.cone_trace_ms},
+            {"rest_ms", steps.rest_ms}};
+}
+
 FrameTimer::FrameTimer(const Scene& scene, const Camera& camera, int frames, RealtimeRenderer renderer)
     : scene_(&scene), camera_(camera), renderer_(std::move(renderer)), frames_(frames) {}
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct FrameSteps {
 };
 /// The passes, each of which belongs to one step.
 [[nodiscard]] FrameSteps steps_of(const std::vector<PassTime>& passes);
+
+[[nodiscard]] nlohmann::ordered_json steps_json(const FrameSteps& steps);
 
 /// GPU milliseconds of a frame.
 struct FrameTime {
