@@ -48,8 +48,8 @@ void add_objects(Scene& scene) {
         node.transform.rotation = rotation_from_euler_deg(turn_deg);
         scene.add_node(std::move(node));
     };
-    Geometry knot{.name = "knot", .mesh = torus_knot_mesh(2, 3, 0.42f, 0.09f, 2000)};
-    Geometry teapot{.name = "teapot", .mesh = teapot_mesh(64)};
+    Geometry knot{.name = "knot", .mesh = torus_knot_mesh(2, 3, 0.42f, 0.09f, 880)};
+    Geometry teapot{.name = "teapot", .mesh = teapot_mesh(62)};
     for (glm::vec3& position : teapot.mesh.positions) position *= 0.35f;
     place("knot", scene.add_geometry(std::move(knot)), add_polished(scene, "mirror metal", 1, 1.5f, 0),
           {-0.45f, 0.47f, -0.4f}, {90, 90, 0});
@@ -95,7 +95,7 @@ Scene crowded_scene(int copies, int lights) {
     Scene scene;
     add_walls(scene, {});
     const GeometryId knot =
-        scene.add_geometry({.name = "knot", .mesh = torus_knot_mesh(2, 3, 0.9f, 0.2f, 630)});
+        scene.add_geometry({.name = "knot", .mesh = torus_knot_mesh(2, 3, 0.9f, 0.2f, 413)});
     const MaterialId clay = add_lambert(scene, "green clay", {0, 0.5f, 0});
     const int edge = static_cast<int>(std::ceil(std::cbrt(copies)));
     for (int i = 0; i < copies; ++i) {
