@@ -55,7 +55,7 @@ struct Rendering {
     std::optional<DepthAttachment> depth;
     std::uint32_t layers = 1;
     std::uint32_t view_mask = 0;
-    /// Pixels; by default the whole first attachment. The viewport is flipped: clip-space +y is up in the picture.
+    /// Pixels; by default the whole first attachment, and required where there is none. The viewport is flipped: clip-space +y is up in the picture.
     std::optional<VkRect2D> area;
 };
 

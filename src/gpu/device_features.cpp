@@ -172,6 +172,17 @@ DeviceInfo describe(VkPhysicalDevice device, int number) {
     info.ray_tracing_pipeline = contains(extensions, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
     info.mesh_shader = contains(extensions, VK_EXT_MESH_SHADER_EXTENSION_NAME);
     info.conservative_rasterization = contains(extensions, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
+    if (info.conservative_rasterization && version >= VK_API_VERSION_1_1) {
+        VkPhysicalDeviceConservativeRasterizationPropertiesEXT conservative{
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONSERVATIVE_RASTERIZATION_PROPERTIES_EXT};
+        properties.pNext = &conservative;
+        vkGetPhysicalDeviceProperties2(device, &properties);
+        info.conservative_extra_px = conservative.maxExtraPrimitiveOverestimationSize;
+        info.conservative_degenerates = conservative.degenerateTrianglesRasterized;
+    }
+    VkPhysicalDeviceFeatures features{};
+    vkGetPhysicalDeviceFeatures(device, &features);
+    info.geometry_shader = features.geometryShader;
     info.push_descriptors = contains(extensions, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     info.shader_float_atomics =
         contains(extensions, VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME) && has_float_atomics(device);

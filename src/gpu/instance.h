@@ -26,6 +26,9 @@ struct DeviceInfo {
     bool usable = false;  ///< has everything Device::create requires
     std::string missing;  ///< what it lacks, comma-separated
     bool ray_query = false, ray_tracing_pipeline = false, mesh_shader = false, conservative_rasterization = false;
+    float conservative_extra_px = 0;         ///< by which conservative rasterization grows primitives at most, on request
+    bool conservative_degenerates = false;   ///< it draws triangles that rounding has left no area, too
+    bool geometry_shader = false;
     bool shader_float_atomics = false;  ///< atomicAdd on 32-bit floats in buffers
     bool push_descriptors = false;
     std::uint64_t memory_bytes = 0;  ///< device-local

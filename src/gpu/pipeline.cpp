@@ -126,6 +126,11 @@ private:
         raster_.depthBiasConstantFactor = description.depth_bias_constant;
         raster_.depthBiasSlopeFactor = description.depth_bias_slope;
         raster_.lineWidth = 1.0f;
+        if (description.conservative_px) {
+            conservative_.conservativeRasterizationMode = VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT;
+            conservative_.extraPrimitiveOverestimationSize = *description.conservative_px;
+            raster_.pNext = &conservative_;
+        }
         multisample_.rasterizationSamples = description.samples;
         depth_.depthTestEnable = description.depth_format != VK_FORMAT_UNDEFINED && description.depth_test;
         depth_.depthWriteEnable = depth_.depthTestEnable && description.depth_write;
@@ -150,6 +155,8 @@ private:
     VkPipelineInputAssemblyStateCreateInfo assembly_{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
     VkPipelineViewportStateCreateInfo viewport_{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
     VkPipelineRasterizationStateCreateInfo raster_{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    VkPipelineRasterizationConservativeStateCreateInfoEXT conservative_{
+        VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT};
     VkPipelineMultisampleStateCreateInfo multisample_{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
     VkPipelineDepthStencilStateCreateInfo depth_{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     VkPipelineColorBlendStateCreateInfo blend_{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
@@ -309,6 +316,12 @@ Result<ComputePipeline> ComputePipeline::create(Device& device, std::shared_ptr<
 Result<GraphicsPipeline> GraphicsPipeline::create(Device& device, const GraphicsDescription& description,
                                                   std::span<const std::shared_ptr<const Shader>> shaders) {
     const std::string where = fmt::format("pipeline '{}'", description.name);
+    const DeviceInfo& able = device.info();
+    if (description.conservative_px && (!able.conservative_rasterization || *description.conservative_px > able.conservative_extra_px))
+        return fail(where, fmt::format("needs conservative rasterization of triangles grown by {} pixels, which {} cannot do",
+                                       *description.conservative_px, able.name));
+    if (!description.geometry.empty() && !able.geometry_shader)
+        return fail(where, fmt::format("needs geometry shaders, which {} has not", able.name));
     GraphicsPipeline pipeline;
     pipeline.device_ = &device;
     pipeline.name_ = description.name;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,9 @@ struct GraphicsDescription {
     float depth_bias_constant = 0, depth_bias_slope = 0;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     std::uint32_t view_mask = 0;  ///< multiview: one bit a layer
+    /// Conservative rasterization: every pixel is drawn that a primitive grown by so many pixels touches. The device
+    /// must have it (DeviceInfo::conservative_rasterization).
+    std::optional<float> conservative_px;
     std::vector<VkVertexInputBindingDescription> vertex_buffers;
     std::vector<VkVertexInputAttributeDescription> vertex_attributes;
 };

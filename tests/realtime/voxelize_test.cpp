@@ -315,5 +315,27 @@ TEST_F(Voxelization, MaterialsSayWhatStopsLightAndWhatGivesIt) {
     EXPECT_NEAR(mean(16, 3, voxel_field_area), 1, 1e-5);
 }
 
+TEST_F(Voxelization, TheRasterizerFindsTheSameVoxelsAndSums) {
+    add_mesh(scene, tessellate(Sphere{{0.1f, 0.2f, 0.3f}, 0.5f}, 64), grey);
+    add_mesh(scene, torus_knot_mesh(2, 3, 0.85f, 0.16f, 1200), grey, {.rotation = rotation_from_euler_deg({10, 20, 30})});
+    add_shape_node(scene, Box{glm::vec3(-0.7f), glm::vec3(0.66f)}, grey, {.rotation = rotation_from_euler_deg({5, 15, 25})});
+    add_shape_node(scene, Quad{{-3, -0.91f, -2.5f}, {0, 0.1f, 7}, {6, 0, 0.3f}}, grey);  // far beyond the grid
+    add_mesh(scene, Mesh{.positions = {{-1, -1, -1}, {1, 1, 0.99f}, {1, 1, 1}}, .indices = {0, 1, 2}}, grey);  // a sliver
+    const VoxelGrid grid = grid_over(glm::vec3(-1.01f), 2, 64);
+    const Voxels compute = voxelize(scene, grid, {}), raster = voxelize(scene, grid, {}, &passes::add_voxelize_raster);
+    EXPECT_GT(compute.records.size(), 15000u);
+    EXPECT_EQ(raster.records.size(), compute.records.size());
+    double worst = 0;
+    for (const auto& [place, record] : compute.records) {
+        const auto found = raster.records.find(place);
+        ASSERT_NE(found, raster.records.end()) << "voxel " << place;
+        for (std::uint32_t i = 0; i < record_words; ++i)
+            worst = std::max(worst, std::abs(Voxels::field(found->second, 0, i) - Voxels::field(record, 0, i)));
+    }
+    // The same formulas, but two compilations of them may round differently.
+    EXPECT_LE(worst, 32.0 / voxel_fixed_one);
+    EXPECT_TRUE(voxelize(scene, grid, {}, &passes::add_voxelize_raster).records == raster.records) << "and every run the same";
+}
+
 }  // namespace
 }  // namespace heliodon::tests

@@ -55,7 +55,6 @@ void main() {
         return;
     }
     ivec3 voxel = triangle.low;
-    if (any(greaterThan(triangle.low, triangle.high))) return;
     do {
         if (near_plane(triangle, voxel)) mark(triangle, voxel);
     } while (next_voxel(triangle, voxel));

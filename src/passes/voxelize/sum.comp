@@ -11,7 +11,7 @@ void main() {
     VoxelTriangle triangle;
     const bool large = push.over_tiles != 0u;
     if (large ? !find_column(triangle) : !find_triangle(triangle)) return;
-    if ((!large && !is_small(triangle)) || any(greaterThan(triangle.low, triangle.high))) return;
+    if (!large && !is_small(triangle)) return;
     ivec3 voxel = triangle.low;
     do {
         if (near_plane(triangle, voxel)) sum(triangle, voxel);

@@ -6,7 +6,6 @@
 
 layout(set = 0, binding = 16, std430) buffer Numbers { VoxelHeader header; uint voxel_number[]; };
 layout(set = 0, binding = 17, std430) writeonly buffer Cells { uint record_cell[]; };
-layout(push_constant) uniform Push { VoxelizeConstants push; };
 
 void mark(VoxelTriangle triangle, ivec3 voxel) {
     const uint size = push.grid.size;

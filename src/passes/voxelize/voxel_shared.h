@@ -73,7 +73,8 @@ struct VoxelizeConstants {
     uint triangle_count;
     uint record_capacity;
     uint tile_capacity;
-    uint over_tiles;  // the dispatch takes the tiles of large triangles, not all triangles
+    uint over_tiles;    // compute: the dispatch takes the tiles of large triangles, not all triangles
+    float dilation_px;  // raster: half a pixel and what rounding can take, where the hardware does not find all pixels
 };
 
 // A record has six faces (+x −x +y −y +z −z). A surface counts for the faces that it is seen from, with the area

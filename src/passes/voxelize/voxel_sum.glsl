@@ -9,7 +9,6 @@
 layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
 layout(set = 0, binding = 16, std430) readonly buffer Numbers { VoxelHeader header; uint voxel_number[]; };
 layout(set = 0, binding = 18, std430) buffer Records { uint records[]; };
-layout(push_constant) uniform Push { VoxelizeConstants push; };
 float shading_table(uint index) { return shading_tables[index]; }
 
 /// A material as voxels know it. Shares are of the surface's area.

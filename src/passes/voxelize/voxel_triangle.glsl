@@ -4,6 +4,8 @@
 #include "passes/common/scene_tables.glsl"
 #include "passes/voxelize/voxel_shared.h"
 
+layout(push_constant) uniform Push { VoxelizeConstants push; };
+
 struct VoxelTriangle {
     uint instance;
     uint primitive;
@@ -16,20 +18,20 @@ struct VoxelTriangle {
     ivec3 high;
 };
 
-vec3 grid_position(VoxelGrid grid, InstanceData instance, GeometryData geometry, uint vertex) {
+vec3 grid_position(InstanceData instance, GeometryData geometry, uint vertex) {
     const vec3 world = vec3(instance.object_to_world * vec4(fetch_vec3(geometry.position_offset, vertex), 1.0f));
-    return (world - grid.origin) / grid.voxel_m;
+    return (world - push.grid.origin) / push.grid.voxel_m;
 }
 
 /// False where it has no area or lies outside the grid. Surfaces in the plane between two voxels belong to the upper
 /// one, those in the grid's last plane to the last voxel.
-bool triangle_in_grid(VoxelGrid grid, vec3 p0, vec3 p1, vec3 p2, float determinant_sign, inout VoxelTriangle triangle) {
+bool triangle_in_grid(vec3 p0, vec3 p1, vec3 p2, float determinant_sign, inout VoxelTriangle triangle) {
     triangle.p0 = p0;
     triangle.p1 = p1;
     triangle.p2 = p2;
     const vec3 low = min(p0, min(p1, p2));
     const vec3 high = max(p0, max(p1, p2));
-    const float size = float(grid.size);
+    const float size = float(push.grid.size);
     if (!(all(greaterThanEqual(high, vec3(0.0f))) && all(lessThanEqual(low, vec3(size))))) return false;
     triangle.low = ivec3(clamp(floor(low), vec3(0.0f), vec3(size - 1.0f)));
     triangle.high = ivec3(clamp(floor(high), vec3(0.0f), vec3(size - 1.0f)));
@@ -40,16 +42,15 @@ bool triangle_in_grid(VoxelGrid grid, vec3 p0, vec3 p1, vec3 p2, float determina
     return true;
 }
 
-bool load_triangle(VoxelGrid grid, uint instance_index, uint primitive, out VoxelTriangle triangle) {
+bool load_triangle(uint instance_index, uint primitive, out VoxelTriangle triangle) {
     const InstanceData instance = instance_table[instance_index];
     const GeometryData geometry = geometry_table[instance.geometry];
     const uint first = geometry.first_index + 3u * primitive;
     triangle.instance = instance_index;
     triangle.primitive = primitive;
     triangle.index = uvec3(index_table[first], index_table[first + 1u], index_table[first + 2u]);
-    return triangle_in_grid(grid, grid_position(grid, instance, geometry, triangle.index.x),
-                            grid_position(grid, instance, geometry, triangle.index.y),
-                            grid_position(grid, instance, geometry, triangle.index.z), instance.determinant_sign, triangle);
+    return triangle_in_grid(grid_position(instance, geometry, triangle.index.x), grid_position(instance, geometry, triangle.index.y),
+                            grid_position(instance, geometry, triangle.index.z), instance.determinant_sign, triangle);
 }
 
 /// The axis along which the triangle is seen largest.
@@ -71,6 +72,36 @@ ivec2 voxels_in_column(VoxelTriangle triangle, int axis, ivec2 column) {
     const float reach = 0.5f * (abs(slope.x) + abs(slope.y)) + rounding;
     const vec2 bounds = clamp(floor(vec2(depth - reach, depth + reach)), -1.0f, float(triangle.high[axis]) + 1.0f);
     return ivec2(max(int(bounds.x), triangle.low[axis]), min(int(bounds.y), triangle.high[axis]));
+}
+
+/// Leaves of the triangle's box the part in a column, (axis + 1) % 3 and (axis + 2) % 3 along; false if none is left.
+bool narrow_to_column(inout VoxelTriangle triangle, ivec2 column) {
+    const int axis = dominant_axis(triangle.normal);
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    if (column.x < triangle.low[u] || column.x > triangle.high[u] || column.y < triangle.low[v] || column.y > triangle.high[v]) return false;
+    const ivec2 depth = voxels_in_column(triangle, axis, column);
+    triangle.low[axis] = depth.x;
+    triangle.high[axis] = depth.y;
+    triangle.low[u] = triangle.high[u] = column.x;
+    triangle.low[v] = triangle.high[v] = column.y;
+    return depth.x <= depth.y;
+}
+
+/// The box's voxels one after the other, from `low`; false after the last.
+bool next_voxel(VoxelTriangle triangle, inout ivec3 voxel) {
+    if (++voxel.x <= triangle.high.x) return true;
+    voxel.x = triangle.low.x;
+    if (++voxel.y <= triangle.high.y) return true;
+    voxel.y = triangle.low.y;
+    return ++voxel.z <= triangle.high.z;
+}
+
+/// Whether the triangle's plane passes a voxel no farther from its centre than the voxel's half diagonal along the
+/// normal; a little farther, for rounding.
+bool near_plane(VoxelTriangle triangle, ivec3 voxel) {
+    const float reach = 0.5f * (abs(triangle.normal.x) + abs(triangle.normal.y) + abs(triangle.normal.z));
+    return abs(dot(triangle.normal, vec3(voxel) + 0.5f - triangle.p0)) <= reach + 1.0e-3f;
 }
 
 #endif

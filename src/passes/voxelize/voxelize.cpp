@@ -1,6 +1,9 @@
 #include "passes/voxelize/voxelize.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "gpu/device.h"
 
 namespace heliodon::passes {
 namespace {
@@ -37,7 +40,14 @@ struct Voxelization {
 
     [[nodiscard]] VoxelizeConstants constants(bool over_tiles) const {
         return {inputs.grid,           inputs.range_count, inputs.triangle_count, surfaces.record_capacity,
-                surfaces.tile_capacity, over_tiles ? 1u : 0u};
+                surfaces.tile_capacity, over_tiles ? 1u : 0u,  0.0f};
+    }
+    using NumberedBuffers = std::vector<std::pair<std::uint32_t, graph::BufferHandle>>;
+    [[nodiscard]] std::vector<gpu::Binding> bindings(const gpu::Pipeline& pipeline, const NumberedBuffers& buffers,
+                                                     const PassContext& context) const {
+        std::vector<NumberedBinding> own{{11, *inputs.shading_tables}, {12, *inputs.triangle_ranges}};
+        for (const auto& [binding, handle] : buffers) own.emplace_back(binding, context.buffer(handle));
+        return select_bindings(pipeline, scene, own);
     }
     /// A compute pass over `shader`: `indirect` arguments, or all triangles in groups of 64 where there are none.
     struct Step {
@@ -47,7 +57,7 @@ struct Voxelization {
         graph::BufferHandle indirect{};
         VkDeviceSize indirect_offset = 0;
         bool once = false;  ///< a single workgroup
-        std::vector<std::pair<std::uint32_t, graph::BufferHandle>> buffers;  ///< by binding
+        NumberedBuffers buffers;
     };
     Result<void> add(const Step& step, const std::function<void(PassBuilder&)>& setup) const;
 };
@@ -62,9 +72,7 @@ Result<void> Voxelization::add(const Step& step, const std::function<void(PassBu
             if (step.indirect) pass.read(step.indirect, Usage::indirect);
         },
         [self = *this, step, pipeline = *pipeline](PassContext& context) {
-            std::vector<NumberedBinding> own{{11, *self.inputs.shading_tables}, {12, *self.inputs.triangle_ranges}};
-            for (const auto& [binding, handle] : step.buffers) own.emplace_back(binding, context.buffer(handle));
-            const auto bindings = select_bindings(*pipeline, self.scene, own);
+            const auto bindings = self.bindings(*pipeline, step.buffers, context);
             const VoxelizeConstants push = self.constants(step.over_tiles);
             if (step.indirect)
                 context.commands.dispatch_indirect(*pipeline, push, bindings, context.buffer(step.indirect), step.indirect_offset);
@@ -154,6 +162,58 @@ Result<void> add_sum(const Voxelization& self) {
     return self.add(step, uses);
 }
 
+/// How the hardware is made to find every pixel that a triangle touches.
+struct Coverage {
+    std::optional<float> conservative_px;  ///< by itself, triangles grown by so much
+    float dilation_px = 0;                 ///< or by triangles that are drawn so much larger
+};
+Coverage coverage_of(const gpu::Device& device) {
+    // Corners are rounded to the rasterizer's grid first: what that can take away is added.
+    const float rounding = std::ldexp(1.0f, -static_cast<int>(device.limits().subPixelPrecisionBits));
+    const gpu::DeviceInfo& info = device.info();
+    if (info.conservative_rasterization && info.conservative_degenerates && info.conservative_extra_px >= rounding)
+        return {.conservative_px = rounding};
+    return {.dilation_px = 0.5f + rounding};
+}
+
+/// Draws all triangles without attachments, a pixel a column of voxels.
+Result<void> add_raster(const Voxelization& self, const char* name, const char* fragment,
+                        const Voxelization::NumberedBuffers& buffers, const std::function<void(PassBuilder&)>& setup) {
+    const Coverage coverage = coverage_of(self.pipelines.device());
+    gpu::GraphicsDescription description;
+    description.name = name;
+    description.vertex = "passes/voxelize/raster.vert";
+    description.geometry = "passes/voxelize/raster.geom";
+    description.fragment = fragment;
+    description.cull_mode = VK_CULL_MODE_NONE;
+    description.conservative_px = coverage.conservative_px;
+    auto pipeline = self.pipelines.graphics(description);
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    self.graph.add_pass(name, PassKind::graphics, setup, [self, buffers, coverage, pipeline = *pipeline](PassContext& context) {
+        if (self.inputs.triangle_count == 0) return;
+        VoxelizeConstants push = self.constants(false);
+        push.dilation_px = coverage.dilation_px;
+        const std::uint32_t size = self.surfaces.size;
+        gpu::Rendering rendering;
+        rendering.area = VkRect2D{{0, 0}, {size, size}};
+        context.commands.begin_rendering(rendering);
+        context.commands.bind(*pipeline, push, self.bindings(*pipeline, buffers, context));
+        context.commands.draw(3 * self.inputs.triangle_count);
+        context.commands.end_rendering();
+    });
+    return {};
+}
+
+/// The buffers that no one else sees, and the clearing of all that counts.
+Voxelization begin(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VoxelizeInputs& inputs,
+                   const VoxelSurfaces& surfaces) {
+    Voxelization self{graph, pipelines, scene, inputs, surfaces, {}, {}};
+    self.listed = graph.create_buffer({"listed coarse voxels", listed_words(surfaces.size) * word_bytes});
+    self.tile_arguments = graph.create_buffer({"voxel tile arguments", sizeof(glm::uvec4)});
+    add_clear(self);
+    return self;
+}
+
 }  // namespace
 
 VoxelBufferSizes voxel_buffer_sizes(std::uint32_t size, std::uint32_t record_capacity, std::uint32_t tile_capacity) {
@@ -170,13 +230,28 @@ VoxelBufferSizes voxel_buffer_sizes(std::uint32_t size, std::uint32_t record_cap
 
 Result<void> add_voxelize(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VoxelizeInputs& inputs,
                           const VoxelSurfaces& surfaces) {
-    Voxelization self{graph, pipelines, scene, inputs, surfaces, {}, {}};
-    self.listed = graph.create_buffer({"listed coarse voxels", listed_words(surfaces.size) * word_bytes});
-    self.tile_arguments = graph.create_buffer({"voxel tile arguments", sizeof(glm::uvec4)});
-    add_clear(self);
+    const Voxelization self = begin(graph, pipelines, scene, inputs, surfaces);
     if (auto done = add_mark(self); !done) return done;
     if (auto done = add_prepare(self); !done) return done;
     return add_sum(self);
+}
+
+Result<void> add_voxelize_raster(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                 const VoxelizeInputs& inputs, const VoxelSurfaces& surfaces) {
+    const Voxelization self = begin(graph, pipelines, scene, inputs, surfaces);
+    auto done = add_raster(self, "voxelize mark raster", "passes/voxelize/raster_mark.frag",
+                           {{16, surfaces.numbers}, {17, surfaces.cells}}, [&](PassBuilder& pass) {
+                               pass.read_write(surfaces.numbers, Usage::storage_read_write);
+                               pass.write(surfaces.cells, Usage::storage_write);
+                           });
+    if (!done) return done;
+    if (done = add_arguments(self, "voxelize arguments"); !done) return done;
+    if (done = add_prepare(self); !done) return done;
+    return add_raster(self, "voxelize sum raster", "passes/voxelize/raster_sum.frag",
+                      {{16, surfaces.numbers}, {18, surfaces.records}}, [&](PassBuilder& pass) {
+                          pass.read(surfaces.numbers, Usage::storage_read);
+                          pass.read_write(surfaces.records, Usage::storage_read_write);
+                      });
 }
 
 }  // namespace heliodon::passes

@@ -42,4 +42,9 @@ struct VoxelBufferSizes {
 [[nodiscard]] Result<void> add_voxelize(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                         const VoxelizeInputs& inputs, const VoxelSurfaces& surfaces);
 
+/// The same by the hardware's rasterizer: each triangle projected along its dominant axis, conservatively; `tiles` is
+/// not used. Error where the device has no geometry shaders (DeviceInfo::geometry_shader). The records hold the same.
+[[nodiscard]] Result<void> add_voxelize_raster(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                               const VoxelizeInputs& inputs, const VoxelSurfaces& surfaces);
+
 }  // namespace heliodon::passes
