@@ -41,7 +41,8 @@ FrameRenderer::FrameRenderer(gpu::Device& device, const std::string& shader_dire
       pipelines_(device, gpu::ShaderLibrary(passes::embedded_shaders(), shader_directory)),
       gpu_scene_(device),
       shadow_executor_(std::make_unique<graph::Executor>(device)),
-      frame_executor_(std::make_unique<graph::Executor>(device)) {}
+      frame_executor_(std::make_unique<graph::Executor>(device)),
+      voxels_(device, pipelines_) {}
 
 FrameRenderer::~FrameRenderer() {
     // Nothing is left to report an error to; what failed has been reported by the call that submitted it.
@@ -81,6 +82,7 @@ Result<void> FrameRenderer::open() {
 Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
     auto update = gpu_scene_.update(scene);
     if (!update) return update;
+    settings_ = scene.render_settings();
     const int size = std::clamp(scene.render_settings().shadow_map_size, 1, static_cast<int>(device_.limits().maxImageDimension2D));
     if (size != shadow_map_size_) planned_lights_ = ~0ull;
     shadow_map_size_ = size;
@@ -124,7 +126,7 @@ Result<void> FrameRenderer::resize(int width, int height, bool display) {
     return {};
 }
 
-Result<void> FrameRenderer::prepare() {
+Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sample) {
     std::uint32_t layers = 1;
     for (const ShadowBatch& batch : plan_.batches) layers = std::max(layers, batch.view_count);
     wanted_.blended = gpu_scene_.has_blended();
@@ -142,13 +144,19 @@ Result<void> FrameRenderer::prepare() {
     inputs_.instance_count = gpu_scene_.instance_count();
     inputs_.has_tested = gpu_scene_.has_tested();
     inputs_.has_blended = gpu_scene_.has_blended();
+    wanted_.aov = sample.aov != shading::frame_aov_none;
+    wanted_.cone_traced = sample.cone_traced;
+    wanted_.volume = key_.volume;
+    if (!(wanted_ == key_)) {
+        if (auto done = device_.wait_idle(); !done) return done;
+        // After a failure some of it is of the old size and some of the new: the next frame makes all anew.
+        if (auto made = make_images(); !made) return key_ = {}, made;
+    }
+    if (sample.cone_traced)
+        if (auto done = prepare_volume(camera); !done) return key_ = {}, done;
     if (wanted_ == key_) return {};
-
     if (auto done = device_.wait_idle(); !done) return done;
-    const Result<void> rebuilt = make_images()
-                                     .and_then([&] { return build_shadow_graph(); })
-                                     .and_then([&] { return build_frame_graph(); });
-    // After a failure some of it is of the old size and some of the new: the next frame makes all anew.
+    const Result<void> rebuilt = build_shadow_graph().and_then([&] { return build_frame_graph(); });
     key_ = rebuilt ? wanted_ : decltype(key_){};
     return rebuilt;
 }
@@ -187,6 +195,7 @@ Result<void> FrameRenderer::make_images() {
         if (!views) return tl::unexpected(views.error());
         shadow_views_ = std::move(*views);
         resident_shadows_ = {};
+        voxels_.forget_shadow_maps();
     }
     if (wanted_.fragment_capacity != key_.fragment_capacity) {
         const VkDeviceSize bytes = passes::blend_buffer_bytes(wanted_.fragment_capacity);
@@ -229,6 +238,13 @@ Result<void> FrameRenderer::build_frame_graph() {
     if (!visibility) return tl::unexpected(visibility.error());
     auto picture = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, extent, wanted_.aov);
     if (!picture) return tl::unexpected(picture.error());
+    graph::ImageHandle volume;
+    if (wanted_.cone_traced) {
+        volume = graph.import_image(voxels_.faces().description());
+        if (auto done = passes::add_cone_trace(graph, pipelines_, inputs_, lighting_, voxels_.inputs(), volume, *visibility,
+                                               *picture, extent, wanted_.aov); !done)
+            return done;
+    }
     graph::BufferHandle fragments;
     if (wanted_.blended && !wanted_.aov) {
         fragments = graph.import_buffer(fragments_.description());
@@ -247,6 +263,7 @@ Result<void> FrameRenderer::build_frame_graph() {
     frame_executor_->bind(maps.depth, shadow_depth_);
     frame_executor_->bind(maps.slope, shadow_slope_);
     frame_executor_->bind(sum, sum_);
+    if (volume) frame_executor_->bind(volume, voxels_.faces());
     if (fragments) frame_executor_->bind(fragments, fragments_);
     if (display) frame_executor_->bind(display, display_);
     return {};
@@ -294,6 +311,8 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
     auto commands = device_.begin_commands("frame");
     if (!commands) return tl::unexpected(commands.error());
     timestamps_.begin_frame();
+    if (sample.cone_traced && plan_.batches.size() == 1)
+        if (auto done = record_volume(*commands, sample, batch); !done) return done;
     if (auto done = record_shadows(*commands, sample, batch, &timestamps_); !done) return done;
 
     shading::FrameData frame = camera_frame(camera, gpu_scene_.bounds(), wanted_.width, wanted_.height, sample.jitter);
@@ -305,6 +324,9 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
     frame.light_count = plan_.batches[batch].light_count;
     frame.batch = static_cast<std::uint32_t>(batch);
     frame.aov = sample.aov;
+    frame.cone_traced = sample.cone_traced ? 1 : 0;
+    // Live, a picture in motion has the cones in the middle of their cells; all other samples fill the cells.
+    if (sample.index > 0 || sample.count > 1) frame.cone_shift = sample_position(sample.index, sample.count, sample.seed + 1);
     frame.shadow_filter = sample.jitter_shadows ? shading::shadow_filter_nearest : shading::shadow_filter_percentage_closer;
     frame.fragment_capacity = wanted_.fragment_capacity;
     frame.random_seed = sample.index * 9781u + sample.seed;
@@ -314,7 +336,11 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
     replace_sum_ = sample.replace && batch == 0;
     display_scale_ = sample.display_scale;
     if (auto done = frame_executor_->execute(*commands, &timestamps_); !done) return done;
-    auto submitted = device_.submit(std::move(*commands));
+    return submit(std::move(*commands), times);
+}
+
+Result<void> FrameRenderer::submit(gpu::Commands commands, PassTimes* times) {
+    auto submitted = device_.submit(std::move(commands));
     if (!submitted) return tl::unexpected(submitted.error());
     in_flight_.push_back(*submitted);
     if (in_flight_.size() > frames_in_flight) {
@@ -335,9 +361,10 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
 }
 
 Result<void> FrameRenderer::render(const Camera& camera, const FrameSample& sample, PassTimes* times) {
-    wanted_.aov = sample.aov != shading::frame_aov_none;
-    if (auto done = prepare(); !done) return done;
+    if (auto done = sample.cone_traced ? update_surfaces(camera, sample) : prepare(camera, sample); !done) return done;
     inputs_.draw_calls = 0;
+    if (sample.cone_traced && relight_ && (sample.count > 0 || plan_.batches.size() > 1))
+        if (auto done = converge_volume(sample); !done) return done;
     for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch)
         if (auto done = render_batch(camera, sample, batch, times); !done) return done;
     draw_calls_ = inputs_.draw_calls;

@@ -17,6 +17,7 @@
 #include "realtime/gpu_scene.h"
 #include "realtime/renderer.h"
 #include "realtime/shadow_plan.h"
+#include "realtime/voxel_volume.h"
 
 namespace heliodon::realtime {
 
@@ -29,6 +30,7 @@ struct FrameSample {
     bool jitter_shadows = false;     ///< move the shadow maps' texel grid by `shadow_index`, and look up single texels
     bool force_shadows = false;      ///< render them although nothing changed (for timing)
     bool environment = true;
+    bool cone_traced = false;        ///< indirect light and the sky by cones through the voxel volume
     std::uint32_t aov = shading::frame_aov_none;
     std::uint32_t seed = 0;
     bool replace = true;             ///< the accumulated sum starts anew
@@ -59,17 +61,25 @@ public:
     [[nodiscard]] PassTimes latest_times();
     /// The accumulated sum as RGBA floats; waits.
     [[nodiscard]] Result<std::vector<float>> read_sum();
-    /// Illuminance in lux (RGB) on planes: light from the lights with shadows and from the open sky; waits.
+    /// Illuminance in lux (RGB) on planes: light from the lights with shadows and from the open sky, or, cone traced,
+    /// from the sky that is seen and other surfaces; waits.
     struct Receiver {
         glm::vec3 position, normal;
     };
-    [[nodiscard]] Result<std::vector<glm::vec3>> illuminances(const std::vector<Receiver>& receivers, bool environment);
+    [[nodiscard]] Result<std::vector<glm::vec3>> illuminances(const std::vector<Receiver>& receivers, bool environment,
+                                                              bool cone_traced);
     /// Whether blended fragments found no room since the last call; if so, makes room, and the picture must
     /// be rendered again. Waits.
     [[nodiscard]] Result<bool> grow_fragments();
 
+    /// The same for the voxel volume's surfaces, of which a moving scene may have more than before.
+    [[nodiscard]] Result<bool> grow_volume();
+
     [[nodiscard]] const gpu::Image& display() const { return display_; }
     [[nodiscard]] const GpuScene& scene() const { return gpu_scene_; }
+    [[nodiscard]] const VoxelVolume& voxels() const { return voxels_; }
+    /// The scene's render block as of the last update.
+    [[nodiscard]] const RenderSettings& settings() const { return settings_; }
     [[nodiscard]] gpu::Device& device() const { return device_; }
     [[nodiscard]] gpu::Pipelines& pipelines() { return pipelines_; }
     /// Indirect draws that the last render() recorded.
@@ -82,10 +92,11 @@ private:
     /// What the graphs depend on; they are rebuilt when it changes.
     struct GraphKey {
         int width = 0, height = 0;
-        bool display = false, blended = false, aov = false;
+        bool display = false, blended = false, aov = false, cone_traced = false;
         std::uint32_t instance_capacity = 0, shadow_layers = 0;
         int shadow_size = 0;
         std::uint32_t fragment_capacity = 0;
+        std::uint64_t volume = 0;  // VoxelVolume::texture_revision
         bool operator==(const GraphKey&) const = default;
     };
     /// Which shadow maps are resident.
@@ -97,6 +108,16 @@ private:
         bool operator==(const ShadowKey&) const = default;
     };
 
+    /// What the voxel volume shows.
+    struct VolumeKey {
+        std::uint64_t scene = ~0ull, placement = ~0ull;
+        int bounces = 0;
+        bool sky = true;
+        float radiance_unit = 1;
+        std::uint32_t gather_sets = 1;
+        bool operator==(const VolumeKey&) const = default;
+    };
+
     FrameRenderer(gpu::Device& device, const std::string& shader_directory);
     [[nodiscard]] Result<void> open();
     [[nodiscard]] Result<void> plan_lights();
@@ -104,7 +125,19 @@ private:
     [[nodiscard]] Result<void> record_sensor_batch(const gpu::Buffer& sensors, std::uint32_t count, const FrameSample& sample,
                                                    std::size_t batch, const passes::SensorLights& lights);
     [[nodiscard]] Result<void> place_area_lights(const FrameSample& sample);
-    [[nodiscard]] Result<void> prepare();
+    [[nodiscard]] Result<void> prepare(const Camera& camera, const FrameSample& sample);
+    [[nodiscard]] Result<void> prepare_volume(const Camera& camera);
+    /// Brings the volume up to date for a still picture: until light has converged. Waits.
+    [[nodiscard]] Result<void> converge_volume(const FrameSample& sample);
+    /// Voxelizes now, waits, and says whether all surfaces found room; if not, the next prepare() makes it.
+    [[nodiscard]] Result<bool> surfaces_find_room();
+    /// Tells the volume what it is asked for and finds out what is due.
+    [[nodiscard]] Result<void> update_volume(const Camera& camera, const FrameSample& sample);
+    [[nodiscard]] Result<void> update_surfaces(const Camera& camera, const FrameSample& sample);
+    /// What a live frame does for the volume.
+    [[nodiscard]] Result<void> record_volume(gpu::Commands& commands, const FrameSample& sample, std::size_t batch);
+    [[nodiscard]] Result<void> record_volume_bounces(gpu::Commands& commands);
+    [[nodiscard]] Result<void> submit(gpu::Commands commands, PassTimes* times);
     [[nodiscard]] Result<void> make_images();
     [[nodiscard]] Result<void> build_shadow_graph();
     [[nodiscard]] Result<void> build_frame_graph();
@@ -118,6 +151,13 @@ private:
     GpuScene gpu_scene_;
     std::unique_ptr<graph::Executor> shadow_executor_, frame_executor_;
     gpu::Timestamps timestamps_;
+
+    VoxelVolume voxels_;
+    RenderSettings settings_;
+    VolumeKey volume_key_;
+    bool voxelize_ = false, relight_ = false;  // due in this frame
+    std::uint64_t voxelized_texture_ = 0;
+    int bounces_done_ = 0;                     // since the volume last changed
 
     ShadowPlan plan_;
     std::vector<shading::LightData> placed_lights_;  // the scene's, those with an extent at one point of it

@@ -55,12 +55,19 @@ Result<void> FrameRenderer::record_sensor_batch(const gpu::Buffer& sensors, std:
     return status ? done : status;
 }
 
-Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Receiver>& receivers, bool environment) {
+Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Receiver>& receivers, bool environment,
+                                                           bool cone_traced) {
     std::vector<glm::vec3> result(receivers.size(), glm::vec3(0));
     if (receivers.empty()) return result;
     if (wanted_.width == 0)
         if (auto done = resize(1, 1, false); !done) return tl::unexpected(done.error());
-    if (auto done = prepare(); !done) return tl::unexpected(done.error());
+    FrameSample still;
+    still.environment = environment;
+    still.cone_traced = cone_traced;
+    const Camera camera;  // its exposure and place only scale and centre the volume
+    if (auto done = cone_traced ? update_surfaces(camera, still) : prepare(camera, still); !done) return tl::unexpected(done.error());
+    if (cone_traced && relight_)
+        if (auto done = converge_volume(still); !done) return tl::unexpected(done.error());
     std::vector<shading::SensorData> sensors;
     for (const Receiver& receiver : receivers) sensors.push_back({receiver.position, 0, receiver.normal, 0, glm::vec3(0), 0});
     auto buffer = gpu::Buffer::create(device_, {"sensors", sensors.size() * sizeof(shading::SensorData)});
@@ -75,7 +82,7 @@ Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Rec
         sample.jitter_shadows = has_area_lights_;
         for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch) {
             const passes::SensorLights lights{plan_.batches[batch].first_light, plan_.batches[batch].light_count,
-                                              environment && batch == 0};
+                                              environment && !cone_traced && batch == 0};
             if (auto done = record_sensor_batch(*buffer, static_cast<std::uint32_t>(sensors.size()), sample, batch, lights); !done)
                 return tl::unexpected(done.error());
             auto read = device_.read_back_as<shading::SensorData>(*buffer);
@@ -84,6 +91,18 @@ Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Rec
                 result[i] += (*read)[i].illuminance / static_cast<float>(points);
         }
     }
+    if (!cone_traced) return result;
+    if (auto done = device_.upload<shading::SensorData>(*buffer, sensors); !done) return tl::unexpected(done.error());
+    Result<void> status;
+    auto traced = device_.run("cone sensors", [&](gpu::Commands& commands) {
+        status = passes::record_cone_sensors(commands, pipelines_, inputs_, voxels_.inputs(), *buffer,
+                                             static_cast<std::uint32_t>(sensors.size()));
+    });
+    if (!status) return tl::unexpected(status.error());
+    if (!traced) return tl::unexpected(traced.error());
+    auto indirect = device_.read_back_as<shading::SensorData>(*buffer);
+    if (!indirect) return tl::unexpected(indirect.error());
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] += (*indirect)[i].illuminance;
     return result;
 }
 

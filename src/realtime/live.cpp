@@ -72,6 +72,7 @@ Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camer
         const int per_grid = frames.has_area_lights() ? 1 : samples_per_shadow_grid;
         sample.shadow_index = sample.jitter_shadows ? sample.index / per_grid : 0;
         sample.environment = environment;
+        sample.cone_traced = frames.settings().gi == "vct";
         sample.replace = state.samples == 0;
         sample.display_scale = view.exposure / static_cast<float>(state.samples + 1);
         sample.texture_gradient_scale = 1.0f / std::sqrt(static_cast<float>(std::min(state.samples + 1, 64)));
@@ -80,7 +81,9 @@ Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camer
         if (++state.frame_number % frames_between_overflow_checks == 0) {
             auto grown = frames.grow_fragments();
             if (!grown) return tl::unexpected(grown.error());
-            if (*grown) state.samples = 0;
+            auto voxels_grown = frames.grow_volume();
+            if (!voxels_grown) return tl::unexpected(voxels_grown.error());
+            if (*grown || *voxels_grown) state.samples = 0;
         }
     }
     Frame frame;

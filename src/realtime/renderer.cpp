@@ -29,20 +29,34 @@ struct AovKind {
     const char* name;
     std::uint32_t code;
     int channels;
-    bool over_hits;  // the mean over what was hit alone; else nothing counts as 0
+    bool over_hits;            // the mean over what was hit alone; else nothing counts as 0
+    bool cone_traced = false;  // made by cones
+    bool needs_cones = false;  // and by nothing else
 };
-constexpr std::array<AovKind, 6> aov_kinds{{{"albedo", shading::frame_aov_albedo, 3, false},
+constexpr std::array<AovKind, 9> aov_kinds{{{"albedo", shading::frame_aov_albedo, 3, false},
                                             {"normal", shading::frame_aov_normal, 3, false},
                                             {"depth", shading::frame_aov_depth, 1, true},
                                             {"position", shading::frame_aov_position, 3, true},
                                             {"direct", shading::frame_aov_none, 3, false},
-                                            {"indirect", shading::frame_aov_indirect, 3, false}}};
+                                            {"indirect", shading::frame_aov_indirect, 3, false, true},
+                                            {"ao", shading::frame_aov_occlusion, 1, true, true, true},
+                                            {"voxels", shading::frame_aov_voxels, 3, false, true, true},
+                                            {"opacity", shading::frame_aov_opacity, 1, false, true, true}}};
 
-Result<AovKind> find_aov(const std::string& name) {
+Result<AovKind> find_aov(const std::string& name, bool cone_traced) {
     const auto found = std::find_if(aov_kinds.begin(), aov_kinds.end(), [&](const AovKind& kind) { return name == kind.name; });
     if (found == aov_kinds.end())
-        return fail("aovs", fmt::format("expected albedo, normal, depth, position, direct or indirect, found \"{}\"", name));
+        return fail("aovs", fmt::format("expected albedo, normal, depth, position, direct, indirect, ao, voxels or opacity, "
+                                        "found \"{}\"", name));
+    if (found->needs_cones && !cone_traced) return fail("aovs", fmt::format("{} is made by voxel cones: expected gi vct with it", name));
     return *found;
+}
+
+/// Whether light bounces in the voxel volume.
+Result<bool> traces_cones(const RealtimeOptions& options) {
+    if (options.gi == "none") return false;
+    if (options.gi == "vct") return true;
+    return fail("gi", fmt::format("expected none or vct, found \"{}\"", options.gi));
 }
 
 double median(std::vector<double> values) {
@@ -115,6 +129,7 @@ struct RealtimeRenderer::State {
                 // Each sample draws anew what blended surfaces let through and the point of a light with an extent.
                 if (frames->scene().has_blended() || frames->has_area_lights()) sample.shadow_index = sample.index;
                 sample.aov = kind.code;
+                sample.cone_traced = options.gi == "vct" && kind.cone_traced;
                 PassTimes times;
                 const auto begin = std::chrono::steady_clock::now();
                 if (auto rendered = frames->render(camera, sample, series ? &times : nullptr); !rendered)
@@ -142,6 +157,8 @@ struct RealtimeRenderer::State {
             FrameSample sample = still_sample(options, i, warm_up_frames + options.frames_timed);
             sample.jitter_shadows = false;
             sample.force_shadows = true;
+            sample.count = 0;  // as in motion: nothing is left to later frames
+            sample.cone_traced = options.gi == "vct";
             PassTimes times;
             const auto begin = std::chrono::steady_clock::now();
             if (auto done = frames->render(camera, sample); !done) return done;
@@ -154,7 +171,7 @@ struct RealtimeRenderer::State {
         return {};
     }
 
-    Result<glm::vec3> luminance_along(glm::vec3 position, glm::vec3 direction, bool environment);
+    Result<glm::vec3> luminance_along(glm::vec3 position, glm::vec3 direction, bool environment, bool cone_traced);
 };
 
 RealtimeRenderer::RealtimeRenderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -208,11 +225,11 @@ Result<RealtimeUpdate> RealtimeRenderer::update(const Scene& scene) try {
 
 Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camera, const RealtimeOptions& options,
                                          RealtimeStatistics* statistics, const Progress& progress) try {
-    if (options.gi != "none")
-        return fail("gi", fmt::format("expected none (indirect light is not there yet in real time), found \"{}\"", options.gi));
+    const auto cone_traced = traces_cones(options);
+    if (!cone_traced) return tl::unexpected(cone_traced.error());
     std::vector<AovKind> aovs;
     for (const std::string& name : options.aovs) {
-        auto kind = find_aov(name);
+        auto kind = find_aov(name, *cone_traced);
         if (!kind) return tl::unexpected(kind.error());
         aovs.push_back(*kind);
     }
@@ -222,7 +239,7 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
 
     TimeSeries series;
     const bool time_still = statistics && options.frames_timed <= 0;
-    const AovKind radiance{"", shading::frame_aov_none, 3, false};
+    const AovKind radiance{"", shading::frame_aov_none, 3, false, true};
     auto image = state_->accumulate(camera, options, radiance, time_still ? &series : nullptr, progress);
     if (!image) return tl::unexpected(image.error());
     Picture picture;
@@ -251,7 +268,7 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
 
 std::vector<std::string> RealtimeRenderer::validation_messages() const { return state_->device->validation_messages(); }
 
-Result<glm::vec3> RealtimeRenderer::State::luminance_along(glm::vec3 position, glm::vec3 direction, bool environment) {
+Result<glm::vec3> RealtimeRenderer::State::luminance_along(glm::vec3 position, glm::vec3 direction, bool environment, bool cone_traced) {
     Camera camera;
     camera.position = position;
     camera.target = position + direction;
@@ -265,6 +282,7 @@ Result<glm::vec3> RealtimeRenderer::State::luminance_along(glm::vec3 position, g
         FrameSample sample = still_sample(options, i, shadow_grids);
         sample.jitter = glm::vec2(0);
         sample.texture_gradient_scale = 1.0f;
+        sample.cone_traced = cone_traced;
         if (auto done = frames->render(camera, sample); !done) return tl::unexpected(done.error());
     }
     auto sum = frames->read_sum();
@@ -274,8 +292,8 @@ Result<glm::vec3> RealtimeRenderer::State::luminance_along(glm::vec3 position, g
 }
 
 Result<std::vector<SensorReading>> RealtimeRenderer::measure(const Scene& scene, const RealtimeOptions& options) try {
-    if (options.gi != "none")
-        return fail("gi", fmt::format("expected none (indirect light is not there yet in real time), found \"{}\"", options.gi));
+    const auto cone_traced = traces_cones(options);
+    if (!cone_traced) return tl::unexpected(cone_traced.error());
     if (auto updated = update(scene); !updated) return tl::unexpected(updated.error());
     FrameRenderer& frames = *state_->frames;
     // A sensor on a surface looks out from it.
@@ -287,13 +305,13 @@ Result<std::vector<SensorReading>> RealtimeRenderer::measure(const Scene& scene,
         const glm::vec3 direction = glm::normalize(sensor->direction);
         receivers.push_back({sensor->position + direction * offset, direction});
     }
-    auto illuminances = frames.illuminances(receivers, options.environment);
+    auto illuminances = frames.illuminances(receivers, options.environment, *cone_traced);
     if (!illuminances) return tl::unexpected(illuminances.error());
     std::vector<SensorReading> readings;
     for (std::size_t i = 0; i < sensors.size(); ++i) {
         glm::vec3 rgb = (*illuminances)[i];
         if (sensors[i]->type == SensorType::luminance) {
-            auto luminance = state_->luminance_along(receivers[i].position, receivers[i].normal, options.environment);
+            auto luminance = state_->luminance_along(receivers[i].position, receivers[i].normal, options.environment, *cone_traced);
             if (!luminance) return tl::unexpected(luminance.error());
             rgb = *luminance;
         }

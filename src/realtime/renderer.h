@@ -37,11 +37,12 @@ struct RealtimeOptions {
     int width = 1024, height = 768;
     int samples = 64;           ///< jittered frames accumulated into a still picture
     std::uint32_t seed = 0;
-    std::string gi = "none";
+    std::string gi = "none";    ///< or vct: voxel cone tracing, as the scene's render block has it
     bool environment = true;    ///< false: the sky gives no light and is black
     int frames_timed = 0;       ///< > 0: time this many frames after warm-up
     /// albedo normal depth position direct indirect: depth is the distance along the view axis in metres; depth
     /// and position are means over what was hit (0 where nothing was), the others box-filtered like the picture.
+    /// With vct also ao (openness of the hemisphere by cosine), voxels and opacity (the volume as the camera sees it).
     std::vector<std::string> aovs;
 };
 struct PassTime {

@@ -57,6 +57,9 @@ struct FrameData {
     uint shadow_filter;  // shadow_filter_…
     uint fragment_capacity;
     uint random_seed;
+    uint cone_traced;  // 1: indirect light and the sky come from cones through the voxel volume
+    uint padding;
+    vec2 cone_shift;   // of diffuse_cone()
 };
 
 SHADING_CONST uint frame_aov_none = 0u;
@@ -65,6 +68,9 @@ SHADING_CONST uint frame_aov_normal = 2u;
 SHADING_CONST uint frame_aov_depth = 3u;
 SHADING_CONST uint frame_aov_position = 4u;
 SHADING_CONST uint frame_aov_indirect = 5u;
+SHADING_CONST uint frame_aov_occlusion = 6u;  // openness
+SHADING_CONST uint frame_aov_voxels = 7u;     // radiance of the voxel volume
+SHADING_CONST uint frame_aov_opacity = 8u;    // its cover
 
 SHADING_CONST uint shadow_filter_nearest = 0u;  // the texel grid moves between samples and the mean filters
 SHADING_CONST uint shadow_filter_percentage_closer = 1u;

@@ -4,9 +4,9 @@
 #include "passes/common/shadow_lookup.glsl"
 #include "passes/common/surface.glsl"
 #include "passes/common/hash.glsl"
+#include "passes/common/sky_lookup.glsl"
 #include "shading/environment.h"
 #include "shading/light.h"
-#include "shading/sky.h"
 
 layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
 float shading_table(uint index) { return shading_tables[index]; }
@@ -25,16 +25,6 @@ vec3 lights_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, FrameData fr
         sum += reflected * light_visibility(light, point.position, point.geometric, frame.shadow_filter);
     }
     return sum;
-}
-
-vec3 sky_map(uint slot, vec3 direction, float level) {
-    return textureLod(textures[nonuniformEXT(slot)], sky_uv(direction, sky_data.north_rad), level).rgb;
-}
-
-vec3 sky_seen(vec3 direction) {
-    vec3 texel = vec3(1.0f);
-    if (sky_data.model == sky_model_image && sky_image_slot != no_texture) texel = sky_map(sky_image_slot, direction, 0.0f);
-    return sky_radiance(sky_data, texel);
 }
 
 /// Irradiance / π on a plane of this normal under the open sky.
@@ -72,7 +62,7 @@ vec3 surface_radiance(SurfacePoint point, FrameData frame, uint pixel_seed) {
     vec3 radiance = lights_reflected(point, lobes, wo, frame, pixel_seed);
     if (frame.batch == 0u) {
         radiance += point.material.emission;
-        if (frame.sky_enabled != 0u && sky_data.model != sky_model_none && wo.z > 0.0f) radiance += sky_reflected(point, lobes);
+        if (frame.sky_enabled != 0u && frame.cone_traced == 0u && sky_data.model != sky_model_none && wo.z > 0.0f) radiance += sky_reflected(point, lobes);
     }
     return radiance;
 }

@@ -21,4 +21,14 @@ Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, 
     return {};
 }
 
+Result<void> record_cone_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                 const VolumeInputs& volume, const gpu::Buffer& sensors, std::uint32_t count) {
+    auto pipeline = pipelines.compute("passes/sensors/cone_sensors.comp");
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    const auto bindings = select_bindings(
+        **pipeline, scene, {{12, sensors}, {20, gpu::Binding(*volume.faces, volume.trilinear)}, {21, *volume.data}});
+    commands.dispatch_threads(**pipeline, shading::SensorConstants{count, 0, 0, 0}, bindings, {count, 1, 1});
+    return {};
+}
+
 }  // namespace heliodon::passes

@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Empties the occupied voxels of a cascade, before its surfaces are voxelized anew.
+#include "passes/inject/record_work.glsl"
+
+layout(set = 0, binding = 20, rgba16f) uniform writeonly image3D faces;
+layout(push_constant) uniform Push { InjectConstants push; };
+
+void main() {
+    const uint record = linear_invocation();
+    if (record >= voxel_header.record_count) return;
+    const uvec3 voxel = record_voxel(record, push.grid.size);
+    for (uint face = 0u; face < voxel_faces; ++face)
+        imageStore(faces, face_texel(voxel, face, push.grid.size, push.cascade), vec4(0.0f));
+}

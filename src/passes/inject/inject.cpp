@@ -1,0 +1,166 @@
+#include "passes/inject/inject.h"
+
+#include <bit>
+#include <cstddef>
+
+namespace heliodon::passes {
+namespace {
+
+using graph::PassBuilder;
+using graph::PassContext;
+using graph::PassKind;
+using graph::Usage;
+
+constexpr VkDeviceSize record_groups = offsetof(shading::VoxelHeader, record_groups);
+constexpr VkDeviceSize face_groups = offsetof(shading::VoxelHeader, face_groups);
+
+VkDeviceSize level_groups(std::uint32_t level) { return level * sizeof(glm::uvec4); }
+std::uint32_t level_count(std::uint32_t size) { return static_cast<std::uint32_t>(std::bit_width(size)); }
+
+shading::FilterConstants level_constants(const InjectCascade& cascade, std::uint32_t level) {
+    const VoxelSurfaces& surfaces = cascade.surfaces;
+    return {level, surfaces.size, cascade.constants->cascade,
+            shading::voxel_level_first(level, surfaces.size, surfaces.record_capacity)};
+}
+
+}  // namespace
+
+Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
+                              graph::ImageHandle faces, bool levels) {
+    auto clear_records = pipelines.compute("passes/inject/clear_records.comp");
+    if (!clear_records) return tl::unexpected(clear_records.error());
+    auto clear_levels = pipelines.compute("passes/inject/clear_levels.comp");
+    if (!clear_levels) return tl::unexpected(clear_levels.error());
+    graph.add_pass(
+        "voxelize clear volume", PassKind::compute,
+        [&](PassBuilder& pass) {
+            pass.read(cascade.surfaces.numbers, Usage::storage_read);
+            pass.read(cascade.surfaces.numbers, Usage::indirect);
+            pass.read(cascade.surfaces.cells, Usage::storage_read);
+            pass.read(cascade.surfaces.records, Usage::storage_read);
+            pass.read(cascade.surfaces.levels, Usage::storage_read);
+            pass.read(cascade.surfaces.levels, Usage::indirect);
+            pass.write(faces, Usage::storage_write);
+        },
+        [cascade, faces, levels, clear_records = *clear_records, clear_levels = *clear_levels](PassContext& context) {
+            const VoxelSurfaces& surfaces = cascade.surfaces;
+            const gpu::Buffer& numbers = context.buffer(surfaces.numbers);
+            const gpu::Image& image = context.image(faces);
+            context.commands.dispatch_indirect(
+                *clear_records, *cascade.constants,
+                {numbers, context.buffer(surfaces.cells), context.buffer(surfaces.records), image.mip(0)}, numbers, record_groups);
+            const gpu::Buffer& lists = context.buffer(surfaces.levels);
+            for (std::uint32_t level = 1; levels && level < level_count(surfaces.size); ++level)
+                context.commands.dispatch_indirect(*clear_levels, level_constants(cascade, level), {lists, image.mip(level)},
+                                                   lists, level_groups(level));
+        });
+    return {};
+}
+
+Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                              const LightingInputs& lighting, const InjectCascade& cascade, const ShadowMaps& shadow_maps) {
+    auto pipeline = pipelines.compute("passes/inject/direct.comp");
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    graph.add_pass(
+        "inject lights", PassKind::compute,
+        [&](PassBuilder& pass) {
+            pass.read(cascade.surfaces.numbers, Usage::storage_read);
+            pass.read(cascade.surfaces.numbers, Usage::indirect);
+            pass.read(cascade.surfaces.cells, Usage::storage_read);
+            pass.read(cascade.surfaces.records, Usage::storage_read);
+            pass.read(shadow_maps.depth, Usage::sampled);
+            pass.read(shadow_maps.slope, Usage::sampled);
+            pass.read_write(cascade.illuminance, Usage::storage_read_write);
+        },
+        [&scene, &lighting, cascade, shadow_maps, direct = *pipeline](PassContext& context) {
+            const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
+            const auto bindings = select_bindings(*direct, scene,
+                                                  {{9, *lighting.shadow_views},
+                                                   {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
+                                                   {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
+                                                   {16, numbers},
+                                                   {17, context.buffer(cascade.surfaces.cells)},
+                                                   {18, context.buffer(cascade.surfaces.records)},
+                                                   {19, context.buffer(cascade.illuminance)}});
+            context.commands.dispatch_indirect(*direct, *cascade.constants, bindings, numbers, face_groups);
+        });
+    return {};
+}
+
+Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VolumeInputs& volume,
+                        const InjectCascade& cascade, graph::ImageHandle faces) {
+    auto pipeline = pipelines.compute("passes/inject/gather.comp");
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    graph.add_pass(
+        "gather", PassKind::compute,
+        [&](PassBuilder& pass) {
+            pass.read(cascade.surfaces.numbers, Usage::storage_read);
+            pass.read(cascade.surfaces.numbers, Usage::indirect);
+            pass.read(cascade.surfaces.cells, Usage::storage_read);
+            pass.read(cascade.surfaces.records, Usage::storage_read);
+            pass.read(faces, Usage::sampled);
+            pass.write(cascade.gathered, Usage::storage_write);
+        },
+        [&scene, &volume, cascade, faces, gather = *pipeline](PassContext& context) {
+            const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
+            const auto bindings = select_bindings(*gather, scene,
+                                                  {{16, numbers},
+                                                   {17, context.buffer(cascade.surfaces.cells)},
+                                                   {18, context.buffer(cascade.surfaces.records)},
+                                                   {19, context.buffer(cascade.gathered)},
+                                                   {20, gpu::Binding(context.image(faces), volume.trilinear)},
+                                                   {21, *volume.data}});
+            context.commands.dispatch_indirect(*gather, *cascade.constants, bindings, numbers, face_groups);
+        });
+    return {};
+}
+
+Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
+                          graph::ImageHandle faces, bool emission_only) {
+    auto pipeline = pipelines.compute("passes/inject/radiance.comp", {{0, emission_only ? 1u : 0u}});
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    graph.add_pass(
+        "radiance", PassKind::compute,
+        [&](PassBuilder& pass) {
+            pass.read(cascade.surfaces.numbers, Usage::storage_read);
+            pass.read(cascade.surfaces.numbers, Usage::indirect);
+            pass.read(cascade.surfaces.cells, Usage::storage_read);
+            pass.read(cascade.surfaces.records, Usage::storage_read);
+            pass.read(cascade.illuminance, Usage::storage_read);
+            pass.read(cascade.gathered, Usage::storage_read);
+            pass.write(faces, Usage::storage_write);
+        },
+        [cascade, faces, radiance = *pipeline](PassContext& context) {
+            const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
+            context.commands.dispatch_indirect(*radiance, *cascade.constants,
+                                               {numbers, context.buffer(cascade.surfaces.cells),
+                                                context.buffer(cascade.surfaces.records), context.buffer(cascade.illuminance),
+                                                context.image(faces).mip(0), context.buffer(cascade.gathered)},
+                                               numbers, record_groups);
+        });
+    return {};
+}
+
+Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade, graph::ImageHandle faces) {
+    auto pipeline = pipelines.compute("passes/inject/filter.comp");
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    graph.add_pass(
+        "filter", PassKind::compute,
+        [&](PassBuilder& pass) {
+            pass.read(cascade.surfaces.levels, Usage::storage_read);
+            pass.read(cascade.surfaces.levels, Usage::indirect);
+            pass.read_write(faces, Usage::storage_read_write);
+        },
+        [cascade, faces, filter = *pipeline](PassContext& context) {
+            const gpu::Buffer& lists = context.buffer(cascade.surfaces.levels);
+            const gpu::Image& image = context.image(faces);
+            for (std::uint32_t level = 1; level < level_count(cascade.surfaces.size); ++level) {
+                if (level > 1) context.commands.compute_barrier();
+                context.commands.dispatch_indirect(*filter, level_constants(cascade, level),
+                                                   {lists, image.mip(level - 1), image.mip(level)}, lists, level_groups(level));
+            }
+        });
+    return {};
+}
+
+}  // namespace heliodon::passes

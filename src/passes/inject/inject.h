@@ -1,0 +1,35 @@
+#pragma once
+
+#include "passes/cone_trace/cone_trace.h"
+#include "passes/inject/inject_shared.h"
+#include "passes/shade/shade.h"
+#include "passes/voxelize/voxelize.h"
+
+namespace heliodon::passes {
+
+/// One cascade as injection works on it.
+struct InjectCascade {
+    const shading::InjectConstants* constants = nullptr;  ///< the owner keeps them at one address and up to date
+    VoxelSurfaces surfaces;
+    graph::BufferHandle illuminance;  ///< of the lights in lux: 16 bytes a record's face
+    graph::BufferHandle gathered;     ///< of the volume and the sky, as above
+};
+
+/// Empties what the volume's texture holds of a cascade, by the records it was made of; `levels`: its coarse levels too.
+[[nodiscard]] Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
+                                            graph::ImageHandle faces, bool levels);
+/// Illuminance of one batch of lights (light_first and light_count of the constants) by the resident shadow maps.
+[[nodiscard]] Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                            const LightingInputs& lighting, const InjectCascade& cascade,
+                                            const ShadowMaps& shadow_maps);
+/// Replaces `gathered` by what arrives from the volume and the sky.
+[[nodiscard]] Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                      const VolumeInputs& volume, const InjectCascade& cascade, graph::ImageHandle faces);
+/// Writes level 0: emission, and unless `emission_only` what both illuminances reflect.
+[[nodiscard]] Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
+                                        graph::ImageHandle faces, bool emission_only);
+/// Writes the coarse levels of a cascade from its level 0.
+[[nodiscard]] Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
+                                      graph::ImageHandle faces);
+
+}  // namespace heliodon::passes

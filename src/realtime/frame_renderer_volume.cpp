@@ -1,0 +1,163 @@
+// What the frame renderer does for the voxel volume: when its steps are due.
+#include <algorithm>
+#include <cmath>
+
+#include "realtime/frame_renderer.h"
+#include "shading/cone.h"
+
+namespace heliodon::realtime {
+namespace {
+
+// A voxel's face gathers with so many sets of nine cones for a still picture, and with one live.
+constexpr std::uint32_t still_gather_sets = 4;
+// Light has converged when a bounce changes the volume by less than half precision can tell.
+constexpr double converged_change = 1.0 / 2048;
+// Ends what cannot converge: surfaces that reflect everything, in a closed room.
+constexpr int most_bounces = 64;
+
+std::uint32_t effect_bits(const ConeTracingSettings& vct) {
+    return (vct.diffuse ? shading::gi_effect_diffuse : 0) | (vct.specular ? shading::gi_effect_specular : 0) |
+           (vct.refraction ? shading::gi_effect_refraction : 0) | (vct.shadows ? shading::gi_effect_shadows : 0) |
+           (vct.ao ? shading::gi_effect_occlusion : 0);
+}
+
+/// Shadow maps as voxels read them: filtered, without movement of their texel grid.
+FrameSample unmoved(const FrameSample& sample) {
+    FrameSample still;
+    still.seed = sample.seed;
+    still.force_shadows = sample.force_shadows;
+    return still;
+}
+
+}  // namespace
+
+Result<void> FrameRenderer::prepare_volume(const Camera& camera) {
+    const VoxelVolume::Source source{gpu_scene_, inputs_, lighting_, shadow_depth_, shadow_slope_};
+    const VoxelSettings settings{settings_.voxels, settings_.cascades, settings_.voxelizer == Voxelizer::raster};
+    if (auto done = voxels_.prepare(source, settings, camera.position); !done) return done;
+    wanted_.volume = voxels_.texture_revision();
+    return {};
+}
+
+Result<void> FrameRenderer::update_volume(const Camera& camera, const FrameSample& sample) {
+    VolumeKey wanted;
+    wanted.scene = gpu_scene_.revision();
+    wanted.placement = voxels_.placement_revision();
+    wanted.bounces = settings_.bounces;
+    wanted.sky = sample.environment;
+    // What the camera exposes for lies in the middle of half precision; powers of two change no digit.
+    wanted.radiance_unit = std::exp2(std::floor(camera.ev100()));
+    wanted.gather_sets = sample.count > 0 ? still_gather_sets : 1;
+
+    shading::VolumeData data{};
+    data.radiance_unit = wanted.radiance_unit;
+    data.sky_enabled = sample.environment ? 1 : 0;
+    data.effects = effect_bits(settings_.vct);
+    data.cone_sets = static_cast<std::uint32_t>(settings_.vct.cones) / shading::cones_per_set;
+    data.gather_sets = wanted.gather_sets;
+    if (auto done = voxels_.upload_data(data); !done) return done;
+
+    const bool placed = wanted.placement != volume_key_.placement;
+    const bool changed = wanted.scene != volume_key_.scene;
+    const bool live = sample.count == 0;
+    voxelize_ = placed || (changed && settings_.revoxelize != Revoxelize::once) ||
+                (live && settings_.revoxelize == Revoxelize::always);
+    relight_ = voxelize_ || !(wanted == volume_key_) || (live && sample.force_shadows);
+    if (relight_) bounces_done_ = 0;
+    volume_key_ = wanted;
+    return {};
+}
+
+Result<void> FrameRenderer::update_surfaces(const Camera& camera, const FrameSample& sample) {
+    // Room is made before the first frame; later, live frames look after it now and then (grow_volume).
+    constexpr int most_attempts = 4;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        if (auto done = prepare(camera, sample); !done) return done;
+        if (auto done = update_volume(camera, sample); !done) return done;
+        if (!voxelize_ || (sample.count == 0 && voxelized_texture_ == voxels_.texture_revision())) return {};
+        auto enough = surfaces_find_room();
+        if (!enough) return tl::unexpected(enough.error());
+        if (!*enough) continue;
+        voxelized_texture_ = voxels_.texture_revision();
+        voxelize_ = false;
+        return {};
+    }
+    return fail("render.voxels", "surfaces find no room in the voxel volume");
+}
+
+Result<bool> FrameRenderer::grow_volume() {
+    if (!key_.cone_traced) return false;
+    return voxels_.grow();
+}
+
+Result<void> FrameRenderer::record_volume_bounces(gpu::Commands& commands) {
+    const bool something_to_gather = voxels_.emits() || (volume_key_.sky && gpu_scene_.flat().sky().model != shading::sky_model_none);
+    if (settings_.bounces == 0) {
+        // All bounces: each frame adds one to what the volume holds.
+        if (bounces_done_++ >= most_bounces) return {};
+        return voxels_.record_bounce(commands, &timestamps_, true);
+    }
+    if (!relight_) return {};
+    // So many bounces, from nothing: the frame owes nothing to those before it.
+    if (something_to_gather)
+        if (auto done = voxels_.record_emission(commands, &timestamps_); !done) return done;
+    for (int bounce = 0; bounce < settings_.bounces; ++bounce)
+        if (auto done = voxels_.record_bounce(commands, &timestamps_, bounce > 0 || something_to_gather); !done) return done;
+    return {};
+}
+
+Result<void> FrameRenderer::record_volume(gpu::Commands& commands, const FrameSample& sample, std::size_t batch) {
+    if (sample.count > 0) return {};  // converged before
+    if (voxelize_)
+        if (auto done = voxels_.record_surfaces(commands, &timestamps_); !done) return done;
+    if (relight_) {
+        if (auto done = record_shadows(commands, unmoved(sample), batch, &timestamps_); !done) return done;
+        const ShadowBatch& lights = plan_.batches[batch];
+        if (auto done = voxels_.record_lights(commands, &timestamps_, lights.first_light, lights.light_count, false); !done)
+            return done;
+    }
+    return record_volume_bounces(commands);
+}
+
+Result<bool> FrameRenderer::surfaces_find_room() {
+    auto done = device_.run("voxelize", [&](gpu::Commands& commands) {
+        if (auto recorded = voxels_.record_surfaces(commands, nullptr); !recorded) commands.fail("voxelize", recorded.error().text());
+    });
+    if (!done) return tl::unexpected(done.error());
+    auto grown = voxels_.grow();
+    if (!grown) return tl::unexpected(grown.error());
+    return !*grown;
+}
+
+Result<void> FrameRenderer::converge_volume(const FrameSample& sample) {
+    const auto run = [&](const char* name, const auto& record) {
+        Result<void> status;
+        auto done = device_.run(name, [&](gpu::Commands& commands) { status = record(commands); });
+        return status ? done : status;
+    };
+    for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch) {
+        auto done = run("light voxels", [&](gpu::Commands& commands) -> Result<void> {
+            if (auto shadows = record_shadows(commands, unmoved(sample), batch, nullptr); !shadows) return shadows;
+            const ShadowBatch& lights = plan_.batches[batch];
+            return voxels_.record_lights(commands, nullptr, lights.first_light, lights.light_count, batch > 0);
+        });
+        if (!done) return done;
+    }
+    if (auto done = run("emission", [&](gpu::Commands& commands) { return voxels_.record_emission(commands, nullptr); }); !done)
+        return done;
+    const int limit = settings_.bounces > 0 ? settings_.bounces : most_bounces;
+    double before = 0;
+    for (bounces_done_ = 0; bounces_done_ < limit;) {
+        if (auto done = run("bounce", [&](gpu::Commands& commands) { return voxels_.record_bounce(commands, nullptr, true); }); !done)
+            return done;
+        ++bounces_done_;
+        auto total = voxels_.total_radiance();
+        if (!total) return tl::unexpected(total.error());
+        if (std::abs(*total - before) <= converged_change * *total) break;
+        before = *total;
+    }
+    relight_ = false;
+    return {};
+}
+
+}  // namespace heliodon::realtime

@@ -1,0 +1,273 @@
+#include "realtime/voxel_volume.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+
+namespace heliodon::realtime {
+namespace {
+
+// Empty voxels of the widest cascade round the scene, so that walls at its bounds lie in the middle of a voxel,
+// not between two.
+constexpr float margin_voxels = 1.5f;
+// Inner cascades move by so many voxels at a time: the voxels of the next one must hold them in pairs.
+constexpr float snap_voxels = 2.0f;
+
+std::uint64_t cube(std::uint64_t n) { return n * n * n; }
+
+/// Bytes of the texture of all faces, with its levels.
+std::uint64_t texture_bytes(std::uint64_t size, std::uint64_t cascades) {
+    return 8 * shading::voxel_faces * cascades * cube(size) * 8 / 7;
+}
+
+float brightest_emission(const convert::FlatScene& flat) {
+    float brightest = 0;
+    for (const shading::MaterialData& material : flat.materials())
+        brightest = std::max({brightest, material.emission_nits.x, material.emission_nits.y, material.emission_nits.z});
+    return brightest;
+}
+
+Result<gpu::Buffer> zeroed(gpu::Device& device, const char* name, VkDeviceSize bytes) {
+    if (bytes > device.limits().maxStorageBufferRange)
+        return fail("render.voxels", fmt::format("the volume needs {} MiB for its {}, the device binds at most {} MiB",
+                                                 bytes >> 20, name, device.limits().maxStorageBufferRange >> 20));
+    auto buffer = gpu::Buffer::create(device, {name, bytes, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+    if (!buffer) return buffer;
+    auto done = device.run("clear voxels", [&](gpu::Commands& commands) { commands.fill(*buffer, 0); });
+    if (!done) return tl::unexpected(done.error());
+    return buffer;
+}
+
+constexpr gpu::Access cleared{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+constexpr gpu::Access sampled{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+
+}  // namespace
+
+VoxelVolume::VoxelVolume(gpu::Device& device, gpu::Pipelines& pipelines)
+    : device_(device), pipelines_(pipelines), steps_(std::make_unique<Steps>(device)) {}
+
+Result<void> VoxelVolume::check_size(const VoxelSettings& settings) const {
+    const std::uint64_t n = settings.voxels, c = settings.cascades;
+    const std::uint64_t most = device_.limits().maxImageDimension3D;
+    if (std::max({2 * n, 3 * n, c * n}) > most)
+        return fail("render.voxels", fmt::format("a volume of {} voxels an edge in {} cascades needs a 3D texture of {}x{}x{} "
+                                                 "texels, the device has at most {} a side", n, c, 2 * n, c * n, 3 * n, most));
+    const std::uint64_t bytes = texture_bytes(n, c) + 4 * c * cube(n), memory = device_.info().memory_bytes;
+    if (memory > 0 && bytes > memory)
+        return fail("render.voxels", fmt::format("a volume of {} voxels an edge in {} cascades needs {} MiB, the device has {} MiB",
+                                                 n, c, bytes >> 20, memory >> 20));
+    return {};
+}
+
+Result<void> VoxelVolume::make_texture() {
+    gpu::SamplerDescription sampler = gpu::SamplerDescription::linear_clamp();
+    sampler.mipmap_mode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    auto trilinear = device_.sampler(sampler);
+    if (!trilinear) return tl::unexpected(trilinear.error());
+    const auto n = static_cast<std::uint32_t>(settings_.voxels), c = static_cast<std::uint32_t>(settings_.cascades);
+    faces_ = {};
+    auto made = gpu::Image::create(device_, {.name = "voxel faces", .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                             .extent = {2 * n, c * n, 3 * n},
+                                             .mips = static_cast<std::uint32_t>(std::bit_width(n)),
+                                             .shape = gpu::ImageShape::volume, .usage = VK_IMAGE_USAGE_STORAGE_BIT});
+    if (!made)
+        return fail("render.voxels", fmt::format("a volume of {} voxels an edge in {} cascades needs {} MiB: {}", n, c,
+                                                 texture_bytes(n, c) >> 20, made.error().text()));
+    faces_ = std::move(*made);
+    ++texture_revision_;
+    inputs_ = {&faces_, &data_buffer_, *trilinear};
+    return device_.run("clear volume", [&](gpu::Commands& commands) {
+        commands.transition(faces_, cleared);
+        commands.clear({&faces_}, {});
+        commands.transition(faces_, sampled);
+    });
+}
+
+Result<void> VoxelVolume::make_buffers() {
+    const auto n = static_cast<std::uint32_t>(settings_.voxels);
+    const auto sizes = passes::voxel_buffer_sizes(n, record_capacity_, tile_capacity_);
+    const VkDeviceSize face_bytes = 16ull * shading::voxel_faces * record_capacity_;
+    cascades_.clear();
+    for (int c = 0; c < settings_.cascades; ++c) {
+        auto cascade = std::make_unique<Cascade>();
+        const auto make = [&](gpu::Buffer& buffer, const char* name, VkDeviceSize bytes) -> Result<void> {
+            auto made = zeroed(device_, name, bytes);
+            if (!made) return tl::unexpected(made.error());
+            buffer = std::move(*made);
+            return {};
+        };
+        const Result<void> done = make(cascade->numbers, "voxel numbers", sizes.numbers)
+                                      .and_then([&] { return make(cascade->cells, "voxel cells", sizes.cells); })
+                                      .and_then([&] { return make(cascade->records, "voxel records", sizes.records); })
+                                      .and_then([&] { return make(cascade->tiles, "voxel tiles", sizes.tiles); })
+                                      .and_then([&] { return make(cascade->levels, "voxel levels", sizes.levels); })
+                                      .and_then([&] { return make(cascade->illuminance, "voxel illuminance", face_bytes); })
+                                      .and_then([&] { return make(cascade->gathered, "gathered light", face_bytes); });
+        if (!done) return done;
+        cascades_.push_back(std::move(cascade));
+    }
+    return {};
+}
+
+Result<void> VoxelVolume::place(const GpuScene& scene, glm::vec3 eye) {
+    const Bounds bounds = scene.bounds();
+    const glm::vec3 extent = glm::max(bounds.max - bounds.min, glm::vec3(0));
+    const float longest = std::max({extent.x, extent.y, extent.z, 1e-6f});
+    const auto size = static_cast<float>(settings_.voxels);
+    const int last = settings_.cascades - 1;
+    const float widest_voxel = longest / (size - 2 * margin_voxels);
+    shading::VolumeData wanted = data_;
+    wanted.size = static_cast<std::uint32_t>(settings_.voxels);
+    wanted.cascades = static_cast<std::uint32_t>(settings_.cascades);
+    wanted.voxel_m = std::ldexp(widest_voxel, -last);
+    wanted.lattice = bounds.min - margin_voxels * widest_voxel;
+    for (int c = 0; c <= last; ++c) {
+        const float voxel_m = std::ldexp(wanted.voxel_m, c);
+        const glm::vec3 corner = (eye - wanted.lattice) / voxel_m - 0.5f * size;
+        wanted.cascade[c].base = c == last ? glm::ivec3(0) : glm::ivec3(snap_voxels * glm::round(corner / snap_voxels));
+    }
+    if (std::memcmp(&wanted, &data_, sizeof(data_)) == 0 && placement_revision_ > 0) return {};
+    data_ = wanted;
+    ++placement_revision_;
+    const float brightest = brightest_emission(scene.flat());
+    for (int c = 0; c <= last; ++c) {
+        shading::VoxelGrid& grid = cascades_[c]->constants.grid;
+        grid.voxel_m = std::ldexp(data_.voxel_m, c);
+        grid.origin = data_.lattice + grid.voxel_m * glm::vec3(data_.cascade[c].base);
+        grid.size = data_.size;
+        grid.emission_unit = brightest > 0 ? brightest : 1.0f;
+        cascades_[c]->constants.cascade = static_cast<std::uint32_t>(c);
+        cascades_[c]->voxelize.grid = grid;
+    }
+    return {};
+}
+
+Result<void> VoxelVolume::list_triangles(const GpuScene& scene) {
+    const convert::FlatScene& flat = scene.flat();
+    std::vector<passes::TriangleRange> ranges;
+    std::uint64_t triangles = 0;
+    for (std::uint32_t i = 0; i < flat.instances().size(); ++i) {
+        const shading::InstanceData& instance = flat.instances()[i];
+        if ((instance.flags & shading::instance_flag_visible) == 0) continue;
+        const Geometry* geometry = flat.geometries()[instance.geometry];
+        if (!geometry || geometry->mesh.indices.empty()) continue;
+        ranges.push_back({static_cast<std::uint32_t>(triangles), i});
+        triangles += geometry->mesh.indices.size() / 3;
+    }
+    if (triangles > 0xffffffffull) return fail("", fmt::format("{} triangles are more than can be voxelized", triangles));
+    if (auto done = triangle_ranges_.reserve(device_, ranges.size() * sizeof(passes::TriangleRange), 0); !done) return done;
+    if (!ranges.empty())
+        if (auto done = device_.upload(triangle_ranges_.buffer(), std::span<const passes::TriangleRange>(ranges)); !done) return done;
+    for (auto& cascade : cascades_) {
+        cascade->voxelize.triangle_ranges = &triangle_ranges_.buffer();
+        cascade->voxelize.range_count = static_cast<std::uint32_t>(ranges.size());
+        cascade->voxelize.triangle_count = static_cast<std::uint32_t>(triangles);
+    }
+    emits_ = brightest_emission(flat) > 0;
+    return {};
+}
+
+Result<void> VoxelVolume::prepare(const Source& source, const VoxelSettings& settings, glm::vec3 eye) {
+    const bool same_size = settings.voxels == settings_.voxels && settings.cascades == settings_.cascades;
+    if (!(settings == settings_) || remake_) {
+        if (auto done = check_size(settings); !done) return done;
+        if (auto done = device_.wait_idle(); !done) return done;
+        remake_ = true;
+        settings_ = settings;
+        if (record_capacity_ == 0 || !same_size) {
+            // Four sheets of voxels to begin with, and their tiles; grow() finds what a scene really needs.
+            const auto n = static_cast<std::uint32_t>(settings.voxels);
+            record_capacity_ = std::max(record_capacity_, 4 * n * n);
+            tile_capacity_ = std::max(tile_capacity_, 4 * n * n / (shading::voxel_tile_edge * shading::voxel_tile_edge));
+        }
+        if (!data_buffer_) {
+            auto made = gpu::Buffer::create(device_, {"volume", sizeof(shading::VolumeData)});
+            if (!made) return tl::unexpected(made.error());
+            data_buffer_ = std::move(*made);
+        }
+        if (auto done = make_texture(); !done) return done;
+        if (auto done = make_buffers(); !done) return done;
+        listed_revision_ = ~0ull;
+        ++placement_revision_;
+        data_ = {};
+    }
+    if (listed_revision_ != source.scene.revision()) {
+        if (auto done = list_triangles(source.scene); !done) return done;
+        listed_revision_ = source.scene.revision();
+    }
+    if (auto done = place(source.scene, eye); !done) return done;
+    for (auto& cascade : cascades_) cascade->voxelize.shading_tables = source.lighting.shading_tables;
+    if (remake_ || !shadow_maps_known_)
+        if (auto done = build_graphs(source); !done) return done;
+    remake_ = false;
+    return {};
+}
+
+Result<void> VoxelVolume::upload_data(shading::VolumeData data) {
+    shading::VolumeData all = data_;
+    all.radiance_unit = data.radiance_unit;
+    all.sky_enabled = data.sky_enabled;
+    all.effects = data.effects;
+    all.cone_sets = data.cone_sets;
+    all.gather_sets = data.gather_sets;
+    all.sequence = data.sequence;
+    for (auto& cascade : cascades_) cascade->constants.grid.radiance_unit = data.radiance_unit;
+    return device_.upload(data_buffer_, std::span<const shading::VolumeData>(&all, 1));
+}
+
+Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps) {
+    return steps_->surfaces.execute(commands, timestamps);
+}
+
+Result<void> VoxelVolume::record_lights(gpu::Commands& commands, gpu::Timestamps* timestamps, std::uint32_t light_first,
+                                        std::uint32_t light_count, bool add) {
+    for (auto& cascade : cascades_) {
+        cascade->constants.light_first = light_first;
+        cascade->constants.light_count = light_count;
+        cascade->constants.add = add ? 1 : 0;
+    }
+    return steps_->lights.execute(commands, timestamps);
+}
+
+Result<void> VoxelVolume::record_emission(gpu::Commands& commands, gpu::Timestamps* timestamps) {
+    return steps_->emission.execute(commands, timestamps);
+}
+
+Result<void> VoxelVolume::record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps, bool gather) {
+    return (gather ? steps_->bounce : steps_->reflect).execute(commands, timestamps);
+}
+
+Result<bool> VoxelVolume::grow() {
+    std::uint32_t records = 0, tiles = 0;
+    for (const auto& cascade : cascades_) {
+        auto bytes = device_.read_back(cascade->numbers, 0, sizeof(shading::VoxelHeader));
+        if (!bytes) return tl::unexpected(bytes.error());
+        shading::VoxelHeader header;
+        std::memcpy(&header, bytes->data(), sizeof(header));
+        records = std::max(records, header.record_demand);
+        tiles = std::max(tiles, header.tile_demand);
+    }
+    if (records <= record_capacity_ && tiles <= tile_capacity_) return false;
+    // An eighth more than now, so that what moves a little finds room too.
+    if (records > record_capacity_) record_capacity_ = records + records / 8;
+    if (tiles > tile_capacity_) tile_capacity_ = tiles + tiles / 8;
+    remake_ = true;
+    return true;
+}
+
+Result<double> VoxelVolume::total_radiance() {
+    const std::uint32_t level = faces_.mips() - 1;  // one texel a face and cascade
+    auto texels = device_.read_back_as<std::uint16_t>(faces_, level);
+    if (!texels) return tl::unexpected(texels.error());
+    double sum = 0;
+    for (std::size_t i = 0; i < texels->size(); ++i)
+        if (i % 4 != 3) sum += glm::unpackHalf1x16((*texels)[i]);
+    return sum;
+}
+
+}  // namespace heliodon::realtime

@@ -1,0 +1,103 @@
+// The frame graphs of the volume's steps.
+#include "realtime/voxel_volume.h"
+
+namespace heliodon::realtime {
+namespace {
+
+/// A graph in which the volume's resources are known; every graph imports them in the same order.
+struct VolumeGraph {
+    graph::Graph graph;
+    graph::ImageHandle faces;
+    passes::ShadowMaps shadow_maps;
+    std::vector<passes::InjectCascade> cascades;
+};
+
+}  // namespace
+
+Result<void> VoxelVolume::build_graphs(const Source& source) {
+    const auto begin = [&] {
+        VolumeGraph volume;
+        volume.faces = volume.graph.import_image(faces_.description());
+        volume.shadow_maps = {volume.graph.import_image(source.shadow_depth.description()),
+                              volume.graph.import_image(source.shadow_slope.description())};
+        for (const auto& cascade : cascades_) {
+            const auto import = [&](const gpu::Buffer& buffer) { return volume.graph.import_buffer(buffer.description()); };
+            passes::InjectCascade one;
+            one.constants = &cascade->constants;
+            one.surfaces = {import(cascade->numbers), import(cascade->cells), import(cascade->records), import(cascade->tiles),
+                            import(cascade->levels), data_.size, record_capacity_, tile_capacity_};
+            one.illuminance = import(cascade->illuminance);
+            one.gathered = import(cascade->gathered);
+            volume.cascades.push_back(one);
+        }
+        return volume;
+    };
+    const auto finish = [&](graph::Executor& executor, VolumeGraph& volume) -> Result<void> {
+        volume.graph.export_image(volume.faces, graph::Usage::sampled);
+        for (const auto& one : volume.cascades)
+            for (const graph::BufferHandle buffer : {one.surfaces.numbers, one.surfaces.cells, one.surfaces.records,
+                                                     one.surfaces.tiles, one.surfaces.levels, one.illuminance, one.gathered})
+                volume.graph.export_buffer(buffer);
+        if (auto done = executor.set_graph(volume.graph); !done) return done;
+        executor.bind(volume.faces, faces_);
+        executor.bind(volume.shadow_maps.depth, source.shadow_depth);
+        executor.bind(volume.shadow_maps.slope, source.shadow_slope);
+        for (std::size_t i = 0; i < cascades_.size(); ++i) {
+            const Cascade& cascade = *cascades_[i];
+            const passes::InjectCascade& one = volume.cascades[i];
+            executor.bind(one.surfaces.numbers, cascade.numbers);
+            executor.bind(one.surfaces.cells, cascade.cells);
+            executor.bind(one.surfaces.records, cascade.records);
+            executor.bind(one.surfaces.tiles, cascade.tiles);
+            executor.bind(one.surfaces.levels, cascade.levels);
+            executor.bind(one.illuminance, cascade.illuminance);
+            executor.bind(one.gathered, cascade.gathered);
+        }
+        return {};
+    };
+    const std::size_t last = cascades_.size() - 1;
+
+    VolumeGraph surfaces = begin();
+    for (std::size_t i = 0; i <= last; ++i) {
+        if (auto done = passes::add_volume_clear(surfaces.graph, pipelines_, surfaces.cascades[i], surfaces.faces, i == last); !done)
+            return done;
+        if (auto done = passes::add_voxelize(surfaces.graph, pipelines_, source.inputs, cascades_[i]->voxelize,
+                                             surfaces.cascades[i].surfaces); !done)
+            return done;
+    }
+    if (auto done = finish(steps_->surfaces, surfaces); !done) return done;
+
+    VolumeGraph lights = begin();
+    for (const auto& cascade : lights.cascades)
+        if (auto done = passes::add_direct_light(lights.graph, pipelines_, source.inputs, source.lighting, cascade, lights.shadow_maps); !done)
+            return done;
+    if (auto done = finish(steps_->lights, lights); !done) return done;
+
+    const auto add_volume = [&](VolumeGraph& volume, bool emission_only) -> Result<void> {
+        for (const auto& cascade : volume.cascades)
+            if (auto done = passes::add_radiance(volume.graph, pipelines_, cascade, volume.faces, emission_only); !done) return done;
+        return passes::add_filter(volume.graph, pipelines_, volume.cascades[last], volume.faces);
+    };
+    VolumeGraph emission = begin();
+    if (auto done = add_volume(emission, true); !done) return done;
+    if (auto done = finish(steps_->emission, emission); !done) return done;
+
+    VolumeGraph reflect = begin();
+    for (const auto& cascade : reflect.cascades)
+        reflect.graph.add_pass(
+            "gather nothing", graph::PassKind::transfer,
+            [&](graph::PassBuilder& pass) { pass.write(cascade.gathered, graph::Usage::transfer_write); },
+            [gathered = cascade.gathered](graph::PassContext& context) { context.commands.fill(context.buffer(gathered), 0); });
+    if (auto done = add_volume(reflect, false); !done) return done;
+    if (auto done = finish(steps_->reflect, reflect); !done) return done;
+
+    VolumeGraph bounce = begin();
+    for (const auto& cascade : bounce.cascades)
+        if (auto done = passes::add_gather(bounce.graph, pipelines_, source.inputs, inputs_, cascade, bounce.faces); !done) return done;
+    if (auto done = add_volume(bounce, false); !done) return done;
+    if (auto done = finish(steps_->bounce, bounce); !done) return done;
+    shadow_maps_known_ = true;
+    return {};
+}
+
+}  // namespace heliodon::realtime
