@@ -68,7 +68,7 @@ void solve(EqualError& result) {
 Result<EqualError> find_equal_error(const Scene& scene, const Camera& camera, const Image& frame, double path_seconds) {
     Tracing tracing(scene, camera, frame.width, frame.height);
     if (auto prepared = tracing.prepare(); !prepared) return tl::unexpected(prepared.error());
-    const auto reference = tracing.render(path_seconds, 0, "path reference");
+    const auto reference = tracing.render(path_seconds, 1, "path reference");
     if (!reference) return tl::unexpected(reference.error());
     EqualError result;
     result.threads = std::max(1u, std::thread::hardware_concurrency());

@@ -131,8 +131,12 @@ std::string as_text(const NatusReport& report, const NatusOptions& options) {
     std::string text = fmt::format(
         "natus: {} ({} triangles), {}, {}x{}\nmilliseconds a frame on the GPU, mean (median) of {} frames\n\n",
         report.scene, report.triangles, report.device, options.timing.size.width, options.timing.size.height, options.timing.frames);
-    text += frame_table(report, options.voxels) + "\n" + step_table(report, options.voxels);
-    if (report.equal_error) text += "\n" + equal_error_text(*report.equal_error);
+    text += frame_table(report, options.voxels);
+    text += '\n';
+    text += step_table(report, options.voxels);
+    if (!report.equal_error) return text;
+    text += '\n';
+    text += equal_error_text(*report.equal_error);
     return text;
 }
 
