@@ -82,10 +82,12 @@ struct TimeSeries {
     std::vector<double> totals, cpu;
 
     void add(const PassTimes& times, double cpu_ms) {
+        std::map<std::string, double> frame;  // a pass may run several times in it
         for (const PassTime& pass : times.passes) {
-            if (!by_pass.contains(pass.name)) order.push_back(pass.name);
-            by_pass[pass.name].push_back(pass.gpu_ms);
+            if (!by_pass.contains(pass.name) && !frame.contains(pass.name)) order.push_back(pass.name);
+            frame[pass.name] += pass.gpu_ms;
         }
+        for (const auto& [name, gpu_ms] : frame) by_pass[name].push_back(gpu_ms);
         totals.push_back(times.total_ms);
         cpu.push_back(cpu_ms);
     }
