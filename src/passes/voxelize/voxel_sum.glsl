@@ -107,13 +107,20 @@ void sum(VoxelTriangle triangle, ivec3 voxel) {
     // Up or down at random, by what is rounded alone: pieces smaller than the fixed point's step count on average,
     // and every run gives the same sums.
     const float rounding = unit_interval(pcg_hash(place + pcg_hash(triangle.primitive + pcg_hash(triangle.instance))));
-    for (uint face = 0u; face < voxel_faces; ++face) {
-        const float toward = (face & 1u) == 0u ? triangle.normal[face >> 1u] : -triangle.normal[face >> 1u];
-        if (toward == 0.0f) continue;
-        const bool rear = toward < 0.0f;
-        if (rear && closed && !two_sided) continue;
+    // The faces that see a side of it, a bit each: a loop over them alone keeps neighbouring invocations together.
+    uint faces = 0u;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        const float along = triangle.normal[axis];
+        if (along != 0.0f) faces |= (along > 0.0f ? 1u : 2u) << (2u * axis);
+        if (along != 0.0f && (two_sided || !closed)) faces |= 3u << (2u * axis);
+    }
+    while (faces != 0u) {
+        const uint face = uint(findLSB(faces));
+        faces &= faces - 1u;
+        const float along = triangle.normal[face >> 1u];
+        const bool rear = (along > 0.0f) == ((face & 1u) != 0u);
         add_to_face(((number - 1u) * voxel_faces + face) * voxel_field_count, surface, rear && !two_sided,
-                    rear ? -triangle.normal : triangle.normal, part.xyz, part.w * abs(toward), rounding);
+                    rear ? -triangle.normal : triangle.normal, part.xyz, part.w * abs(along), rounding);
     }
 }
 
