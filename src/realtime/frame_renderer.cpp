@@ -21,17 +21,28 @@
 namespace heliodon::realtime {
 namespace {
 
-// Shadow maps resident at once: 16 layers of 2048². Lights beyond that are lit in further batches.
+// Shadow maps resident at once: 16 layers of 2048².
 constexpr std::uint64_t shadow_budget_bytes = 512ull << 20;
 constexpr std::uint64_t shadow_texel_bytes = 8;  // depth and slope
 constexpr std::uint32_t smallest_shadow_layers = 6;  // one cube
+// What shadow views may draw: a command an instance, view and draw list.
+constexpr std::uint64_t shadow_draw_budget_bytes = 256ull << 20;
+constexpr std::uint32_t most_shadow_views = 32768;  // culling counts them in one dimension of a dispatch
 constexpr std::size_t frames_in_flight = 2;
 constexpr std::uint32_t fragments_per_pixel = 4;  // room for blended surfaces to begin with
 
-std::uint32_t shadow_layer_budget(const gpu::Device& device, int size) {
+std::uint32_t instance_capacity(std::uint32_t instances) { return std::bit_ceil(std::max(instances, 16u)); }
+
+ShadowBudget shadow_budget(const gpu::Device& device, int size, std::uint32_t instances) {
     const std::uint64_t layer_bytes = std::uint64_t(size) * size * shadow_texel_bytes;
-    const auto layers = static_cast<std::uint32_t>(shadow_budget_bytes / layer_bytes);
-    return std::clamp(layers, smallest_shadow_layers, device.limits().maxImageArrayLayers);
+    const std::uint64_t view_bytes = shading::draw_lists_per_view * sizeof(shading::DrawCommand) * instance_capacity(instances);
+    ShadowBudget budget;
+    budget.layer_size = static_cast<std::uint32_t>(size);
+    budget.layers = std::clamp(static_cast<std::uint32_t>(shadow_budget_bytes / layer_bytes), smallest_shadow_layers,
+                               device.limits().maxImageArrayLayers);
+    budget.views = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(shadow_draw_budget_bytes / view_bytes,
+                                                                        smallest_shadow_layers, most_shadow_views));
+    return budget;
 }
 
 }  // namespace
@@ -86,7 +97,7 @@ Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
     const int size = std::clamp(scene.render_settings().shadow_map_size, 1, static_cast<int>(device_.limits().maxImageDimension2D));
     if (size != shadow_map_size_) planned_lights_ = ~0ull;
     shadow_map_size_ = size;
-    if (planned_lights_ != gpu_scene_.light_revision())
+    if (planned_lights_ != gpu_scene_.light_revision() || planned_instances_ != instance_capacity(gpu_scene_.instance_count()))
         if (auto done = plan_lights(); !done) return tl::unexpected(done.error());
     if (prefiltered_sky_ != gpu_scene_.sky_revision())
         if (auto done = prefilter_sky(); !done) return tl::unexpected(done.error());
@@ -94,8 +105,10 @@ Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
 }
 
 Result<void> FrameRenderer::plan_lights() {
-    plan_ = plan_shadows(gpu_scene_.flat().lights(), shadow_layer_budget(device_, shadow_map_size_));
+    plan_ = plan_shadows(gpu_scene_.flat().lights(), gpu_scene_.bounds(),
+                         shadow_budget(device_, shadow_map_size_, gpu_scene_.instance_count()));
     planned_lights_ = gpu_scene_.light_revision();
+    planned_instances_ = instance_capacity(gpu_scene_.instance_count());
     resident_shadows_ = {};
     const auto lights = gpu_scene_.flat().lights();
     has_area_lights_ = std::any_of(plan_.active_lights.begin(), plan_.active_lights.end(),
@@ -127,14 +140,18 @@ Result<void> FrameRenderer::resize(int width, int height, bool display) {
 }
 
 Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sample) {
-    std::uint32_t layers = 1;
-    for (const ShadowBatch& batch : plan_.batches) layers = std::max(layers, batch.view_count);
+    std::uint32_t layers = 1, views = 1;
+    for (const ShadowBatch& batch : plan_.batches) {
+        layers = std::max(layers, batch.layer_count);
+        views = std::max(views, batch.view_count);
+    }
     wanted_.blended = gpu_scene_.has_blended();
-    wanted_.instance_capacity = std::max(std::bit_ceil(gpu_scene_.instance_count()), key_.instance_capacity);
-    wanted_.instance_capacity = std::max(wanted_.instance_capacity, 16u);
+    wanted_.instance_capacity = std::max(instance_capacity(gpu_scene_.instance_count()), key_.instance_capacity);
     // Layers and fragments are kept once made: lights that blink cost no reallocation.
     wanted_.shadow_size = plan_.views.empty() ? 1 : shadow_map_size_;
     wanted_.shadow_layers = wanted_.shadow_size == key_.shadow_size ? std::max(layers, key_.shadow_layers) : layers;
+    wanted_.shadow_views = std::max(views, key_.shadow_views);
+    if (wanted_.instance_capacity != key_.instance_capacity) wanted_.shadow_views = views;  // their product is what fits
     if (wanted_.blended)
         wanted_.fragment_capacity = std::max(wanted_.fragment_capacity,
                                              static_cast<std::uint32_t>(wanted_.width) * wanted_.height * fragments_per_pixel);
@@ -188,14 +205,17 @@ Result<void> FrameRenderer::make_images() {
         maps.format = passes::shadow_slope_format;
         maps.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
         if (auto done = make(shadow_slope_, maps); !done) return done;
-        auto cull_views = gpu::Buffer::create(device_, {"shadow cull views", wanted_.shadow_layers * sizeof(shading::ViewData)});
+        resident_shadows_ = {};
+        voxels_.forget_shadow_maps();
+    }
+    if (wanted_.shadow_views != key_.shadow_views) {
+        auto cull_views = gpu::Buffer::create(device_, {"shadow cull views", wanted_.shadow_views * sizeof(shading::ViewData)});
         if (!cull_views) return tl::unexpected(cull_views.error());
         shadow_cull_views_ = std::move(*cull_views);
-        auto views = gpu::Buffer::create(device_, {"shadow views", wanted_.shadow_layers * sizeof(shading::ShadowViewData)});
+        auto views = gpu::Buffer::create(device_, {"shadow views", wanted_.shadow_views * sizeof(shading::ShadowViewData)});
         if (!views) return tl::unexpected(views.error());
         shadow_views_ = std::move(*views);
         resident_shadows_ = {};
-        voxels_.forget_shadow_maps();
     }
     if (wanted_.fragment_capacity != key_.fragment_capacity) {
         const VkDeviceSize bytes = passes::blend_buffer_bytes(wanted_.fragment_capacity);
@@ -214,7 +234,7 @@ Result<void> FrameRenderer::make_images() {
 Result<void> FrameRenderer::build_shadow_graph() {
     graph::Graph graph;
     const passes::ShadowMaps maps{graph.import_image(shadow_depth_.description()), graph.import_image(shadow_slope_.description())};
-    auto lists = passes::add_cull(graph, pipelines_, inputs_, {wanted_.shadow_layers, wanted_.instance_capacity, true},
+    auto lists = passes::add_cull(graph, pipelines_, inputs_, {wanted_.shadow_views, wanted_.instance_capacity, true},
                                   shadow_cull_views_, shadow_inputs_.view_count);
     if (!lists) return tl::unexpected(lists.error());
     if (auto done = passes::add_shadow(graph, pipelines_, inputs_, shadow_inputs_, *lists, maps); !done) return done;
@@ -287,14 +307,21 @@ Result<void> FrameRenderer::place_area_lights(const FrameSample& sample) {
 Result<void> FrameRenderer::record_shadows(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
                                            gpu::Timestamps* timestamps) {
     const ShadowKey wanted{gpu_scene_.revision(), batch, sample.shadow_index, sample.jitter_shadows};
-    if (wanted == resident_shadows_ && !sample.force_shadows) return {};
+    if (wanted == resident_shadows_ && (!sample.force_shadows || forced_shadows_)) return {};
     glm::vec2 jitter(0);
     if (sample.jitter_shadows) jitter = sample_position(sample.shadow_index, 0, sample.seed) - 0.5f;
     if (auto done = place_area_lights(sample); !done) return done;
-    const auto views = shadow_views(plan_, plan_.batches[batch], placed_lights_, gpu_scene_.bounds(),
-                                    shadow_map_size_, jitter);
+    const auto views = shadow_views(plan_, plan_.batches[batch], placed_lights_, gpu_scene_.bounds(), jitter);
     std::vector<shading::ViewData> cull_views;
-    for (const shading::ShadowViewData& view : views) cull_views.push_back({view.world_to_clip});
+    shadow_inputs_.draws.clear();
+    for (const shading::ShadowViewData& view : views) {
+        const auto index = static_cast<std::uint32_t>(cull_views.size());
+        cull_views.push_back({view.world_to_clip});
+        shadow_inputs_.draws.push_back({index, view.layer, {{static_cast<int>(view.corner_x), static_cast<int>(view.corner_y)},
+                                                            {view.size, view.size}}});
+    }
+    std::stable_sort(shadow_inputs_.draws.begin(), shadow_inputs_.draws.end(),
+                     [](const passes::ShadowDraw& a, const passes::ShadowDraw& b) { return a.layer < b.layer; });
     shadow_inputs_.view_count = static_cast<std::uint32_t>(views.size());
     shadow_inputs_.random_seed = sample.shadow_index + sample.seed;
     if (!views.empty()) {
@@ -304,6 +331,7 @@ Result<void> FrameRenderer::record_shadows(gpu::Commands& commands, const FrameS
     // Also without views: the graph brings the image into the layout that shading expects.
     if (auto done = shadow_executor_->execute(commands, timestamps); !done) return done;
     resident_shadows_ = wanted;
+    forced_shadows_ = sample.force_shadows;
     return {};
 }
 
@@ -363,6 +391,7 @@ Result<void> FrameRenderer::submit(gpu::Commands commands, PassTimes* times) {
 Result<void> FrameRenderer::render(const Camera& camera, const FrameSample& sample, PassTimes* times) {
     if (auto done = sample.cone_traced ? update_surfaces(camera, sample) : prepare(camera, sample); !done) return done;
     inputs_.draw_calls = 0;
+    forced_shadows_ = false;
     if (sample.cone_traced && relight_ && (sample.count > 0 || plan_.batches.size() > 1))
         if (auto done = converge_volume(sample); !done) return done;
     for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch)

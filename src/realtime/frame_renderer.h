@@ -93,7 +93,7 @@ private:
     struct GraphKey {
         int width = 0, height = 0;
         bool display = false, blended = false, aov = false, cone_traced = false;
-        std::uint32_t instance_capacity = 0, shadow_layers = 0;
+        std::uint32_t instance_capacity = 0, shadow_layers = 0, shadow_views = 0;
         int shadow_size = 0;
         std::uint32_t fragment_capacity = 0;
         std::uint64_t volume = 0;  // VoxelVolume::texture_revision
@@ -114,7 +114,6 @@ private:
         int bounces = 0;
         bool sky = true;
         float radiance_unit = 1;
-        std::uint32_t gather_sets = 1;
         bool operator==(const VolumeKey&) const = default;
     };
 
@@ -163,7 +162,9 @@ private:
     std::vector<shading::LightData> placed_lights_;  // the scene's, those with an extent at one point of it
     bool has_area_lights_ = false;
     std::uint64_t planned_lights_ = ~0ull, prefiltered_sky_ = ~0ull;
+    std::uint32_t planned_instances_ = 0;  // as a capacity
     ShadowKey resident_shadows_;
+    bool forced_shadows_ = false;  // in this frame, already
     int shadow_map_size_ = 2048;
 
     GraphKey key_, wanted_;

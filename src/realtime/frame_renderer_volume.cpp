@@ -2,18 +2,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "realtime/camera_frame.h"
 #include "realtime/frame_renderer.h"
 #include "shading/cone.h"
 
 namespace heliodon::realtime {
 namespace {
 
-// A voxel's face gathers with so many sets of nine cones for a still picture, and with one live.
-constexpr std::uint32_t still_gather_sets = 4;
+// A voxel's face gathers with one set of cones. Once light has converged, further sets fill the cells between them,
+// so many for a still picture.
+constexpr int still_gather_sets = 8;
 // Light has converged when a bounce changes the volume by less than half precision can tell.
 constexpr double converged_change = 1.0 / 2048;
 // Ends what cannot converge: surfaces that reflect everything, in a closed room.
 constexpr int most_bounces = 64;
+
+// Live, light has converged after so many frames: nine tenths reflected come to a thousandth.
+constexpr int converging_bounces = 64;
+constexpr int most_live_bounces = converging_bounces + 64;
+const std::optional<VoxelVolume::Gather> nothing, gather_once = VoxelVolume::Gather{};
+
+/// Bounce `index`: the first `converging` ones forget those before, later ones are averaged with the last of them.
+VoxelVolume::Gather next_gather(int index, int converging) {
+    if (index < converging) return {};
+    const int set = index - converging + 1;
+    return {sample_position(static_cast<std::uint32_t>(set), 0, 0), 1.0f / static_cast<float>(set + 1)};
+}
 
 std::uint32_t effect_bits(const ConeTracingSettings& vct) {
     return (vct.diffuse ? shading::gi_effect_diffuse : 0) | (vct.specular ? shading::gi_effect_specular : 0) |
@@ -47,14 +61,13 @@ Result<void> FrameRenderer::update_volume(const Camera& camera, const FrameSampl
     wanted.sky = sample.environment;
     // What the camera exposes for lies in the middle of half precision; powers of two change no digit.
     wanted.radiance_unit = std::exp2(std::floor(camera.ev100()));
-    wanted.gather_sets = sample.count > 0 ? still_gather_sets : 1;
 
     shading::VolumeData data{};
     data.radiance_unit = wanted.radiance_unit;
     data.sky_enabled = sample.environment ? 1 : 0;
     data.effects = effect_bits(settings_.vct);
     data.cone_sets = static_cast<std::uint32_t>(settings_.vct.cones) / shading::cones_per_set;
-    data.gather_sets = wanted.gather_sets;
+    data.gather_sets = 1;
     if (auto done = voxels_.upload_data(data); !done) return done;
 
     const bool placed = wanted.placement != volume_key_.placement;
@@ -94,15 +107,16 @@ Result<void> FrameRenderer::record_volume_bounces(gpu::Commands& commands) {
     const bool something_to_gather = voxels_.emits() || (volume_key_.sky && gpu_scene_.flat().sky().model != shading::sky_model_none);
     if (settings_.bounces == 0) {
         // All bounces: each frame adds one to what the volume holds.
-        if (bounces_done_++ >= most_bounces) return {};
-        return voxels_.record_bounce(commands, &timestamps_, true);
+        if (bounces_done_ >= most_live_bounces) return {};
+        return voxels_.record_bounce(commands, &timestamps_, next_gather(bounces_done_++, converging_bounces));
     }
     if (!relight_) return {};
     // So many bounces, from nothing: the frame owes nothing to those before it.
     if (something_to_gather)
         if (auto done = voxels_.record_emission(commands, &timestamps_); !done) return done;
     for (int bounce = 0; bounce < settings_.bounces; ++bounce)
-        if (auto done = voxels_.record_bounce(commands, &timestamps_, bounce > 0 || something_to_gather); !done) return done;
+        if (auto done = voxels_.record_bounce(commands, &timestamps_, bounce > 0 || something_to_gather ? gather_once : nothing); !done)
+            return done;
     return {};
 }
 
@@ -147,15 +161,20 @@ Result<void> FrameRenderer::converge_volume(const FrameSample& sample) {
         return done;
     const int limit = settings_.bounces > 0 ? settings_.bounces : most_bounces;
     double before = 0;
+    const auto bounce = [&](const VoxelVolume::Gather& gather) {
+        return run("bounce", [&](gpu::Commands& commands) { return voxels_.record_bounce(commands, nullptr, gather); });
+    };
     for (bounces_done_ = 0; bounces_done_ < limit;) {
-        if (auto done = run("bounce", [&](gpu::Commands& commands) { return voxels_.record_bounce(commands, nullptr, true); }); !done)
-            return done;
+        if (auto done = bounce({}); !done) return done;
         ++bounces_done_;
         auto total = voxels_.total_radiance();
         if (!total) return tl::unexpected(total.error());
         if (std::abs(*total - before) <= converged_change * *total) break;
         before = *total;
     }
+    // With all bounces the light is at rest, and more sets of cones only make it finer.
+    for (int set = 1; settings_.bounces == 0 && set < still_gather_sets; ++set)
+        if (auto done = bounce(next_gather(set, 1)); !done) return done;
     relight_ = false;
     return {};
 }

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
+
+#include "core/units.h"
 
 namespace heliodon::realtime {
 namespace {
@@ -95,40 +99,141 @@ ShadowViewData orthographic_view(const Axes& axes, const Bounds& scene, float gu
     return view;
 }
 
+/// Lux that the light gives a plane facing it at a typical distance of the scene's surfaces.
+float typical_illuminance(const LightData& light, const Bounds& scene) {
+    const float luminance = heliodon::units::luminance(light.intensity);
+    if (light.type == shading::light_type_directional || scene.empty()) return luminance;
+    const glm::vec3 offset = light.position - scene.center();
+    const float radius = std::max(0.5f * scene.diagonal(), 1e-6f);
+    return luminance / std::max(glm::dot(offset, offset), radius * radius);
+}
+
+// Smaller maps would be mostly guard texels.
+constexpr std::uint32_t smallest_map = 16;
+
+/// How often the maps of a batch are halved.
+class MapSizes {
+public:
+    explicit MapSizes(const ShadowBudget& budget)
+        : most_halvings_(budget.layer_size > smallest_map ? std::bit_width(budget.layer_size / smallest_map) - 1 : 0),
+          capacity_(budget.layers * cells(0)) {}
+
+    [[nodiscard]] std::uint32_t most_halvings() const { return most_halvings_; }
+    /// Squares of the smallest map in one halved so often.
+    [[nodiscard]] std::uint64_t cells(std::uint32_t halvings) const { return 1ull << 2 * (most_halvings_ - halvings); }
+    [[nodiscard]] std::uint64_t capacity() const { return capacity_; }
+
+    struct Light {
+        float illuminance = 0;
+        std::uint32_t views = 0;
+        std::uint32_t halvings = 0;
+    };
+    /// A shadow's edge is wrong by a texel, ∝ 1/size, where a light's illuminance E is missing or too much. Σ E/size is
+    /// least at a given Σ size² where size ∝ E^⅓.
+    void choose(std::vector<Light>& lights) const {
+        float brightest = 0;
+        for (const Light& light : lights) brightest = std::max(brightest, light.illuminance);
+        std::uint64_t used = 0;
+        for (int quarter_octaves = 0;; ++quarter_octaves) {
+            used = 0;
+            for (Light& light : lights) {
+                const float halvings = 0.25f * static_cast<float>(quarter_octaves) - std::log2(light.illuminance / brightest) / 3;
+                light.halvings = static_cast<std::uint32_t>(
+                    quarter_octaves == 0 ? 0.0f : std::clamp(std::ceil(halvings), 0.0f, static_cast<float>(most_halvings_)));
+                used += light.views * cells(light.halvings);
+            }
+            const bool smallest = std::all_of(lights.begin(), lights.end(), [&](const Light& l) { return l.halvings == most_halvings_; });
+            if (used <= capacity_ || smallest) break;
+        }
+        // What is left over doubles the maps of the brightest.
+        std::vector<Light*> order;
+        for (Light& light : lights) order.push_back(&light);
+        std::stable_sort(order.begin(), order.end(), [](const Light* a, const Light* b) { return a->illuminance > b->illuminance; });
+        for (Light* light : order) {
+            if (light->halvings == 0) continue;
+            const std::uint64_t more = light->views * (cells(light->halvings - 1) - cells(light->halvings));
+            if (used + more > capacity_) break;
+            used += more;
+            --light->halvings;
+        }
+    }
+
+private:
+    std::uint32_t most_halvings_;
+    std::uint64_t capacity_;
+};
+
+/// The even bits of `code`: Morton order (Morton 1966) fills a layer with squares of falling size without a gap.
+std::uint32_t even_bits(std::uint64_t code) {
+    std::uint32_t result = 0;
+    for (std::uint32_t bit = 0; bit < 32; ++bit) result |= static_cast<std::uint32_t>(code >> 2 * bit & 1) << bit;
+    return result;
+}
+
+/// Sizes and places of the maps of one batch.
+void place_maps(ShadowPlan& plan, ShadowBatch& batch, std::span<const LightData> lights, const Bounds& scene,
+                const ShadowBudget& budget) {
+    const MapSizes sizes(budget);
+    std::vector<MapSizes::Light> chosen;
+    std::vector<std::uint32_t> halvings, order;
+    for (std::uint32_t i = 0; i < batch.light_count; ++i) {
+        const LightData& light = lights[plan.active_lights[batch.first_light + i]];
+        chosen.push_back({typical_illuminance(light, scene), needs_cube(light) ? 6u : 1u, 0});
+    }
+    sizes.choose(chosen);
+    for (const MapSizes::Light& light : chosen) halvings.insert(halvings.end(), light.views, light.halvings);
+    order.resize(halvings.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return halvings[a] < halvings[b]; });
+    std::uint64_t next = 0;
+    for (const std::uint32_t view : order) {
+        const std::uint64_t cell = next % sizes.cells(0), edge = budget.layer_size;
+        plan.views[batch.first_view + view].place = {static_cast<std::uint32_t>(next / sizes.cells(0)),
+                                                     static_cast<std::uint32_t>(even_bits(cell) * edge >> sizes.most_halvings()),
+                                                     static_cast<std::uint32_t>(even_bits(cell >> 1) * edge >> sizes.most_halvings()),
+                                                     budget.layer_size >> halvings[view]};
+        next += sizes.cells(halvings[view]);
+    }
+    batch.layer_count = static_cast<std::uint32_t>((next + sizes.cells(0) - 1) / sizes.cells(0));
+}
+
 }  // namespace
 
-ShadowPlan plan_shadows(std::span<const LightData> lights, std::uint32_t max_layers) {
+ShadowPlan plan_shadows(std::span<const LightData> lights, const Bounds& scene, const ShadowBudget& budget) {
     ShadowPlan plan;
     plan.shadow_of_light.assign(lights.size(), shading::no_texture);
+    const std::uint64_t most_views = std::min<std::uint64_t>(budget.views, MapSizes(budget).capacity());
     ShadowBatch batch;
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
         if (!shines(lights[i])) continue;
         const bool cube = needs_cube(lights[i]);
         const std::uint32_t count = cube ? 6 : 1;
-        if (batch.view_count + count > max_layers) {
+        if (batch.view_count + count > most_views) {
             plan.batches.push_back(batch);
             batch = {static_cast<std::uint32_t>(plan.active_lights.size()), 0, static_cast<std::uint32_t>(plan.views.size()), 0};
         }
         plan.shadow_of_light[i] = batch.view_count | (cube ? cube_flag : 0);
         plan.active_lights.push_back(i);
-        for (std::uint32_t face = 0; face < count; ++face) plan.views.push_back({i, face, cube});
+        for (std::uint32_t face = 0; face < count; ++face) plan.views.push_back({i, face, cube, {}});
         ++batch.light_count;
         batch.view_count += count;
     }
     plan.batches.push_back(batch);
+    for (ShadowBatch& planned : plan.batches) place_maps(plan, planned, lights, scene, budget);
     return plan;
 }
 
 std::vector<ShadowViewData> shadow_views(const ShadowPlan& plan, const ShadowBatch& batch, std::span<const LightData> lights,
-                                         const Bounds& scene, int map_size, glm::vec2 jitter_texels) {
+                                         const Bounds& scene, glm::vec2 jitter_texels) {
     std::vector<ShadowViewData> views;
-    const glm::vec2 jitter_ndc = jitter_texels * (2.0f / static_cast<float>(map_size));
-    const float guard = 1.0f + 2.0f * guard_texels / static_cast<float>(map_size);
     // Depth is near/w in 32-bit floats, as precise at any near distance; nearer than this, nothing blocks.
     const float near_m = std::max(scene.diagonal(), 1e-6f) * (1.0f / 65536.0f);
     for (std::uint32_t i = 0; i < batch.view_count; ++i) {
         const ShadowPlan::View& source = plan.views[batch.first_view + i];
         const LightData& light = lights[source.light];
+        const auto map_size = static_cast<float>(source.place.size);
+        const glm::vec2 jitter_ndc = jitter_texels * (2.0f / map_size);
+        const float guard = 1.0f + 2.0f * guard_texels / map_size;
         ShadowViewData view;
         if (light.type == shading::light_type_directional)
             view = orthographic_view(axes_along(light.axis), scene, guard, jitter_ndc);
@@ -136,7 +241,10 @@ std::vector<ShadowViewData> shadow_views(const ShadowPlan& plan, const ShadowBat
             view = perspective_view(face_axes(source.face), light.position, guard, near_m, jitter_ndc);
         else
             view = perspective_view(axes_along(light.axis), light.position, spot_tan(light) * guard + 1e-5f, near_m, jitter_ndc);
-        view.layer = i;
+        view.layer = source.place.layer;
+        view.corner_x = source.place.x;
+        view.corner_y = source.place.y;
+        view.size = source.place.size;
         views.push_back(view);
     }
     return views;

@@ -10,31 +10,46 @@
 
 namespace heliodon::realtime {
 
+/// A square of the shadow map array, in texels.
+struct ShadowPlace {
+    std::uint32_t layer = 0, x = 0, y = 0, size = 0;
+};
+
 /// Lights whose shadow maps are resident together.
 struct ShadowBatch {
     std::uint32_t first_light = 0, light_count = 0;  ///< in ShadowPlan::active_lights
     std::uint32_t first_view = 0, view_count = 0;    ///< in ShadowPlan::views
+    std::uint32_t layer_count = 0;
 };
 
-/// Which lights shine, how many shadow views each needs, and in which batches they fit a budget of layers.
-/// Lights beyond one batch's budget are lit in later ones, so every light casts its shadow.
+/// What a batch may take.
+struct ShadowBudget {
+    std::uint32_t layer_size = 2048;  ///< texels; the largest map
+    std::uint32_t layers = 16;
+    std::uint32_t views = 32768;
+};
+
+/// Which lights shine, how many shadow views each needs, and where their maps lie. While all fit, each map has a layer
+/// of its own. Where they do not, maps share layers, a light's the smaller the less it lights the scene; lights beyond
+/// the number of views are lit in later batches. Every light casts its shadow.
 struct ShadowPlan {
     struct View {
         std::uint32_t light = 0;  ///< index in the light table
         std::uint32_t face = 0;   ///< of a cube; 0 for a single view
         bool cube = false;
+        ShadowPlace place;
     };
     std::vector<std::uint32_t> active_lights;
-    std::vector<std::uint32_t> shadow_of_light;  ///< LightData::shadow by light: layer of the first view, bit 31: a cube
+    std::vector<std::uint32_t> shadow_of_light;  ///< LightData::shadow by light: first view of its batch, bit 31: a cube
     std::vector<View> views;
     std::vector<ShadowBatch> batches;            ///< at least one (of no lights, when none shines)
 };
-[[nodiscard]] ShadowPlan plan_shadows(std::span<const shading::LightData> lights, std::uint32_t max_layers);
+[[nodiscard]] ShadowPlan plan_shadows(std::span<const shading::LightData> lights, const Bounds& scene, const ShadowBudget& budget);
 
 /// The views of one batch. `jitter_texels` moves the texel grid, so that the mean over many shadow maps is
 /// free of its stairs. `scene` bounds what directional lights must cover.
 [[nodiscard]] std::vector<shading::ShadowViewData> shadow_views(const ShadowPlan& plan, const ShadowBatch& batch,
                                                                 std::span<const shading::LightData> lights,
-                                                                const Bounds& scene, int map_size, glm::vec2 jitter_texels);
+                                                                const Bounds& scene, glm::vec2 jitter_texels);
 
 }  // namespace heliodon::realtime

@@ -106,6 +106,9 @@ Result<void> VoxelVolume::make_buffers() {
                                       .and_then([&] { return make(cascade->records, "voxel records", sizes.records); })
                                       .and_then([&] { return make(cascade->tiles, "voxel tiles", sizes.tiles); })
                                       .and_then([&] { return make(cascade->levels, "voxel levels", sizes.levels); })
+                                      .and_then([&] { return make(cascade->shown_numbers, "shown numbers", sizeof(shading::VoxelHeader)); })
+                                      .and_then([&] { return make(cascade->shown_cells, "shown cells", sizes.cells); })
+                                      .and_then([&] { return make(cascade->shown_levels, "shown levels", sizes.levels); })
                                       .and_then([&] { return make(cascade->illuminance, "voxel illuminance", face_bytes); })
                                       .and_then([&] { return make(cascade->gathered, "gathered light", face_bytes); });
         if (!done) return done;
@@ -178,6 +181,7 @@ Result<void> VoxelVolume::prepare(const Source& source, const VoxelSettings& set
         if (auto done = check_size(settings); !done) return done;
         if (auto done = device_.wait_idle(); !done) return done;
         remake_ = true;
+        outdated_ = false;
         settings_ = settings;
         if (record_capacity_ == 0 || !same_size) {
             // Four sheets of voxels to begin with, and their tiles; grow() finds what a scene really needs.
@@ -221,7 +225,15 @@ Result<void> VoxelVolume::upload_data(shading::VolumeData data) {
 }
 
 Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps) {
-    return steps_->surfaces.execute(commands, timestamps);
+    if (auto done = steps_->surfaces.execute(commands, timestamps); !done) return done;
+    outdated_ = true;
+    return {};
+}
+
+Result<void> VoxelVolume::show(graph::Executor& step, gpu::Commands& commands, gpu::Timestamps* timestamps) {
+    if (auto done = step.execute(commands, timestamps); !done) return done;
+    outdated_ = false;
+    return {};
 }
 
 Result<void> VoxelVolume::record_lights(gpu::Commands& commands, gpu::Timestamps* timestamps, std::uint32_t light_first,
@@ -235,11 +247,17 @@ Result<void> VoxelVolume::record_lights(gpu::Commands& commands, gpu::Timestamps
 }
 
 Result<void> VoxelVolume::record_emission(gpu::Commands& commands, gpu::Timestamps* timestamps) {
-    return steps_->emission.execute(commands, timestamps);
+    return show(steps_->emission, commands, timestamps);
 }
 
-Result<void> VoxelVolume::record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps, bool gather) {
-    return (gather ? steps_->bounce : steps_->reflect).execute(commands, timestamps);
+Result<void> VoxelVolume::record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps,
+                                        const std::optional<Gather>& gather) {
+    if (!gather) return show(steps_->reflect, commands, timestamps);
+    for (auto& cascade : cascades_) {
+        cascade->constants.gather_shift = gather->shift;
+        cascade->constants.gather_weight = gather->weight;
+    }
+    return show(steps_->bounce, commands, timestamps);
 }
 
 Result<bool> VoxelVolume::grow() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "gpu/timestamps.h"
@@ -30,7 +31,7 @@ public:
     };
     /// Places the cascades about `eye`, makes what they need and lists the surfaces. Errors: a volume that the device cannot hold, with its size.
     [[nodiscard]] Result<void> prepare(const Source& source, const VoxelSettings& settings, glm::vec3 eye);
-    /// Voxelizes all surfaces anew. What the texture holds of those before is gone.
+    /// Voxelizes all surfaces anew. The texture shows those before until the next emission or bounce.
     [[nodiscard]] Result<void> record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps);
     /// Lights voxels with one batch of lights; `add`: to what those before gave.
     [[nodiscard]] Result<void> record_lights(gpu::Commands& commands, gpu::Timestamps* timestamps, std::uint32_t light_first,
@@ -38,8 +39,13 @@ public:
     /// The volume of what surfaces emit alone.
     [[nodiscard]] Result<void> record_emission(gpu::Commands& commands, gpu::Timestamps* timestamps);
     /// The volume of emission, the lights' light and what arrives from the volume as it was (unless nothing can:
-    /// `gather` false) and from the sky, reflected.
-    [[nodiscard]] Result<void> record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps, bool gather);
+    /// no Gather) and from the sky, reflected.
+    struct Gather {
+        glm::vec2 shift{0};   ///< of diffuse_cone()
+        float weight = 1.0f;  ///< against what was gathered before
+    };
+    [[nodiscard]] Result<void> record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps,
+                                             const std::optional<Gather>& gather);
     /// Cones and effects of this frame; before the frame's other work.
     [[nodiscard]] Result<void> upload_data(shading::VolumeData data);
 
@@ -63,6 +69,7 @@ public:
 private:
     struct Cascade {
         gpu::Buffer numbers, cells, records, tiles, levels, illuminance, gathered;
+        gpu::Buffer shown_numbers, shown_cells, shown_levels;
         shading::InjectConstants constants{};
         passes::VoxelizeInputs voxelize;
     };
@@ -73,6 +80,7 @@ private:
     [[nodiscard]] Result<void> check_size(const VoxelSettings& settings) const;
     [[nodiscard]] Result<void> make_texture();
     [[nodiscard]] Result<void> make_buffers();
+    [[nodiscard]] Result<void> show(graph::Executor& step, gpu::Commands& commands, gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> place(const GpuScene& scene, glm::vec3 eye);
     [[nodiscard]] Result<void> list_triangles(const GpuScene& scene);
     [[nodiscard]] Result<void> build_graphs(const Source& source);
@@ -84,6 +92,7 @@ private:
     shading::VolumeData data_{};
     std::uint32_t record_capacity_ = 0, tile_capacity_ = 0;
     bool remake_ = true, emits_ = false, shadow_maps_known_ = false;
+    bool outdated_ = false;  // the texture shows surfaces as they were before they were voxelized anew
     std::uint64_t placement_revision_ = 0, texture_revision_ = 0, listed_revision_ = ~0ull;
     std::vector<std::unique_ptr<Cascade>> cascades_;
     GrowingBuffer triangle_ranges_{"triangle ranges", 0};

@@ -24,6 +24,8 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
             const auto import = [&](const gpu::Buffer& buffer) { return volume.graph.import_buffer(buffer.description()); };
             passes::InjectCascade one;
             one.constants = &cascade->constants;
+            one.outdated = &outdated_;
+            one.shown = {import(cascade->shown_numbers), import(cascade->shown_cells), import(cascade->shown_levels)};
             one.surfaces = {import(cascade->numbers), import(cascade->cells), import(cascade->records), import(cascade->tiles),
                             import(cascade->levels), data_.size, record_capacity_, tile_capacity_};
             one.illuminance = import(cascade->illuminance);
@@ -36,7 +38,8 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
         volume.graph.export_image(volume.faces, graph::Usage::sampled);
         for (const auto& one : volume.cascades)
             for (const graph::BufferHandle buffer : {one.surfaces.numbers, one.surfaces.cells, one.surfaces.records,
-                                                     one.surfaces.tiles, one.surfaces.levels, one.illuminance, one.gathered})
+                                                     one.surfaces.tiles, one.surfaces.levels, one.illuminance, one.gathered,
+                                                     one.shown.numbers, one.shown.cells, one.shown.levels})
                 volume.graph.export_buffer(buffer);
         if (auto done = executor.set_graph(volume.graph); !done) return done;
         executor.bind(volume.faces, faces_);
@@ -50,6 +53,9 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
             executor.bind(one.surfaces.records, cascade.records);
             executor.bind(one.surfaces.tiles, cascade.tiles);
             executor.bind(one.surfaces.levels, cascade.levels);
+            executor.bind(one.shown.numbers, cascade.shown_numbers);
+            executor.bind(one.shown.cells, cascade.shown_cells);
+            executor.bind(one.shown.levels, cascade.shown_levels);
             executor.bind(one.illuminance, cascade.illuminance);
             executor.bind(one.gathered, cascade.gathered);
         }
@@ -59,8 +65,7 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
 
     VolumeGraph surfaces = begin();
     for (std::size_t i = 0; i <= last; ++i) {
-        if (auto done = passes::add_volume_clear(surfaces.graph, pipelines_, surfaces.cascades[i], surfaces.faces, i == last); !done)
-            return done;
+        passes::add_keep_shown(surfaces.graph, surfaces.cascades[i]);
         if (auto done = passes::add_voxelize(surfaces.graph, pipelines_, source.inputs, cascades_[i]->voxelize,
                                              surfaces.cascades[i].surfaces); !done)
             return done;
@@ -74,6 +79,9 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
     if (auto done = finish(steps_->lights, lights); !done) return done;
 
     const auto add_volume = [&](VolumeGraph& volume, bool emission_only) -> Result<void> {
+        for (std::size_t i = 0; i <= last; ++i)
+            if (auto done = passes::add_volume_clear(volume.graph, pipelines_, volume.cascades[i], volume.faces, i == last); !done)
+                return done;
         for (const auto& cascade : volume.cascades)
             if (auto done = passes::add_radiance(volume.graph, pipelines_, cascade, volume.faces, emission_only); !done) return done;
         return passes::add_filter(volume.graph, pipelines_, volume.cascades[last], volume.faces);

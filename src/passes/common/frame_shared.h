@@ -78,7 +78,7 @@ SHADING_CONST uint shadow_filter_percentage_closer = 1u;
 SHADING_CONST uint shadow_kind_perspective = 0u;
 SHADING_CONST uint shadow_kind_orthographic = 1u;
 
-/// One layer of the shadow map array. The point seen at normalized device coordinates (u, v) lies at
+/// One square of the shadow map array. The point seen at normalized device coordinates (u, v) lies at
 ///   perspective:  origin + w (forward + u axis_u + v axis_v), stored depth near_m / w
 ///   orthographic: origin + u axis_u + v axis_v + t forward,   stored depth 1 − t / range_m
 struct ShadowViewData {
@@ -91,6 +91,10 @@ struct ShadowViewData {
     float range_m;
     vec3 forward;
     uint layer;
+    uint corner_x;  // texels
+    uint corner_y;
+    uint size;
+    uint padding;
 };
 
 /// What a cull or raster view needs.

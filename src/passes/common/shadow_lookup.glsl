@@ -54,7 +54,7 @@ const uint tap_beyond = 2u;  // the map looks past the receiver's edge there and
 uint shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, vec2 position, int size) {
     // Rows run down from the top, where the second coordinate is +1.
     const vec2 center = ((vec2(texel) + 0.5f) * (2.0f / float(size)) - 1.0f) * vec2(1.0f, -1.0f);
-    const ivec3 place = ivec3(clamp(texel, ivec2(0), ivec2(size - 1)), int(view.layer));
+    const ivec3 place = ivec3(clamp(texel, ivec2(0), ivec2(size - 1)) + ivec2(view.corner_x, view.corner_y), int(view.layer));
     const float stored = texelFetch(shadow_maps, place, 0).r;
     const float slope = abs(plane.gradient.x) + abs(plane.gradient.y);
     const float texel_slope = slope * (2.0f / float(size));
@@ -75,7 +75,7 @@ uint shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, vec2 posi
 
 float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode) {
     const ShadowViewData view = shadow_views[view_index];
-    const int size = textureSize(shadow_maps, 0).x;
+    const int size = int(view.size);
     const ReceiverPlane plane = receiver_plane(view, point, normal);
     if (any(greaterThan(abs(plane.at), vec2(1.0f)))) return 1.0f;  // outside what the light's map covers
     const vec2 position = (plane.at * vec2(0.5f, -0.5f) + 0.5f) * float(size);

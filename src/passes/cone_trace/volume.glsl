@@ -13,25 +13,6 @@ layout(set = 0, binding = 21, std430) readonly buffer Volume_ { VolumeData volum
 /// World to the lattice of the finest voxels.
 vec3 to_lattice(vec3 world) { return (world - volume.lattice) / volume.voxel_m; }
 
-/// The face that a ray sees of layer `layer` (of its level) of the axis that `axis` is 1 for, where the ray passes it
-/// at `position` in the lattice: rgb radiance × cover in units of the volume, a cover. Linear across the layer.
-vec4 layer_face(vec3 position, vec3 axis, float layer, bool sees_positive, float level) {
-    const float cascade = min(level, float(volume.cascades - 1u));
-    const float mip = level - cascade;
-    const float size = exp2(-mip) * float(volume.size);
-    vec3 at = position * exp2(-level) - vec3(volume.cascade[uint(cascade)].base) * exp2(-mip);
-    const float middle = layer + 0.5f - dot(axis, vec3(volume.cascade[uint(cascade)].base)) * exp2(-mip);
-    at = mix(at, vec3(middle), axis);
-    at = clamp(at, vec3(0.5f), vec3(size - 0.5f));
-    at += size * vec3(sees_positive ? 0.0f : 1.0f, cascade, axis.y + 2.0f * axis.z);
-    return textureLod(voxel_faces_texture, at / (size * vec3(2.0f, float(volume.cascades), 3.0f)), mip);
-}
-
-struct ConeResult {
-    vec3 radiance;  // cd/m² × cover
-    float cover;
-};
-
 /// The finest level whose cascade holds the position.
 float level_holding(vec3 position) {
     float level = 0.0f;
@@ -43,50 +24,90 @@ float level_holding(vec3 position) {
     return level;
 }
 
+/// Texture coordinates of a position in the lattice, on the first face of the cascade that has voxels of `edge`;
+/// linear interpolation stays within the face.
+vec3 face_coordinates(vec3 position, float edge, float level) {
+    const float size = float(volume.size);
+    vec3 at = position;
+    float cascade = 0.0f;
+    float texel = edge;
+    if (volume.cascades > 1u) {
+        cascade = min(level, float(volume.cascades - 1u));
+        at = at * exp2(-cascade) - vec3(volume.cascade[uint(cascade)].base);
+        texel *= exp2(-cascade);
+    }
+    at = clamp(at, vec3(0.5f * texel), vec3(size - 0.5f * texel));
+    at.y += size * cascade;
+    return at / (size * vec3(2.0f, float(volume.cascades), 3.0f));
+}
+
+struct ConeResult {
+    vec3 radiance;  // cd/m² × cover
+    float cover;
+};
+
 /// `origin` and `reach` in finest voxels; `direction` unit.
 ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float reach) {
     ConeResult result = ConeResult(vec3(0.0f), 0.0f);
-    const bvec3 forward = greaterThan(direction, vec3(0.0f));
-    const vec3 inverse = 1.0f / mix(direction, mix(vec3(-1.0e-12f), vec3(1.0e-12f), forward), lessThan(abs(direction), vec3(1.0e-12f)));
-    const uint last = volume.cascades - 1u;
-    const vec3 low = vec3(volume.cascade[last].base) * exp2(float(last));
-    const vec3 high = low + exp2(float(last)) * float(volume.size);
-    const vec3 exits = (mix(low, high, forward) - origin) * inverse;
+    // Each axis is walked forward: where the cone goes backward, in the lattice's mirror image. The lattice is as wide as
+    // the widest cascade, whose voxels of every level mirror onto themselves.
+    const float wide = exp2(float(volume.cascades - 1u)) * float(volume.size);
+    const bvec3 backward = lessThan(direction, vec3(0.0f));
+    const vec3 start = mix(origin, wide - origin, backward);
+    const vec3 inverse = 1.0f / max(abs(direction), vec3(1.0e-12f));
+    const vec3 entries = -start * inverse;
+    const float begin = max(0.0f, max(entries.x, max(entries.y, entries.z)));
+    const vec3 exits = (wide - start) * inverse;
     const float end = min(reach, min(exits.x, min(exits.y, exits.z)));
-    const float coarsest = float(last) + log2(float(volume.size)) - 1.0f;
+    const float coarsest = 0.5f * wide;  // edge of the voxels of the level before the last
+    // A ray that goes forward sees what looks backward.
+    const vec3 side = mix(vec3(0.5f), vec3(0.0f), backward);
+    // A voxel's edge is the cone's radius, to the nearest level: it doubles at √2 times it.
+    const float radius = tan_half_angle * inversesqrt(2.0f);
 
-    const vec3 step = mix(vec3(-1.0f), vec3(1.0f), forward);
-    vec3 level = vec3(level_holding(origin));
+    vec3 level = vec3(level_holding(origin + direction * begin));
     vec3 edge = exp2(level);
-    vec3 layer = mix(floor(origin / edge - 0.5f), ceil(origin / edge - 0.5f), forward);
-    vec3 next = ((layer + 0.5f) * edge - origin) * inverse;
+    vec3 layer = ceil((start + abs(direction) * begin) / edge - 0.5f);
+    vec3 next = ((layer + 0.5f) * edge - start) * inverse;
     while (true) {
         const float t = min(next.x, min(next.y, next.z));
         if (!(t <= end)) break;
-        // The axis whose layer comes first; of several, one.
-        const vec3 axis = next.x <= t ? vec3(1.0f, 0.0f, 0.0f) : next.y <= t ? vec3(0.0f, 1.0f, 0.0f) : vec3(0.0f, 0.0f, 1.0f);
+        // The axis whose layer comes first; of several, one. The cone is in the middle of that layer.
+        const bool x = next.x <= t;
+        const bool y = !x && next.y <= t;
+        float axis_edge = x ? edge.x : y ? edge.y : edge.z;
+        float axis_level = x ? level.x : y ? level.y : level.z;
         const vec3 position = origin + direction * t;
-        const float here = dot(axis, level);
-        const vec4 face = layer_face(position, axis, dot(axis, layer), dot(axis, direction) < 0.0f, here);
+        vec3 at = face_coordinates(position, axis_edge, axis_level);
+        at.x += x ? side.x : y ? side.y : side.z;
+        at.z += x ? 0.0f : y ? 1.0f / 3.0f : 2.0f / 3.0f;
+        const vec4 face = textureLod(voxel_faces_texture, at, axis_level - (volume.cascades > 1u ? min(axis_level, float(volume.cascades - 1u)) : 0.0f));
         if (face.a > 0.0f) {
             const float gained = min(face.a, 1.0f - result.cover);
             result.radiance += face.rgb * (gained / face.a);
             result.cover += gained;
             if (result.cover >= 0.999f) break;
         }
-        layer += axis * step;
-        // A voxel's edge is the cone's radius, to the nearest level. An axis goes to the coarser level where its next
-        // layer begins one there, so that each of its layers counts once.
-        float wanted = min(max(floor(log2(max(t * tan_half_angle, 1.0f)) + 0.5f), here), coarsest);
-        if (volume.cascades > 1u) wanted = max(wanted, level_holding(position));
-        const float index = dot(axis, layer);
-        const bool even = fract(0.5f * index) < 0.25f;
-        if (wanted > here && even == (dot(axis, step) > 0.0f)) {
-            level += axis;
-            edge += axis * edge;
-            layer = mix(layer, floor(0.5f * layer), axis);
+        float axis_layer = (x ? layer.x : y ? layer.y : layer.z) + 1.0f;
+        // An axis goes to the coarser level where its next layer begins one there, so that each layer counts once.
+        bool coarser = t * radius >= axis_edge && axis_edge < coarsest;
+        if (volume.cascades > 1u) coarser = coarser || level_holding(position) > axis_level;
+        if (coarser && fract(0.5f * axis_layer) == 0.0f) {
+            axis_layer *= 0.5f;
+            axis_edge *= 2.0f;
+            axis_level += 1.0f;
         }
-        next = mix(next, ((layer + 0.5f) * edge - origin) * inverse, axis);
+        const float middle = (axis_layer + 0.5f) * axis_edge;
+        if (x) {
+            layer.x = axis_layer, edge.x = axis_edge, level.x = axis_level;
+            next.x = (middle - start.x) * inverse.x;
+        } else if (y) {
+            layer.y = axis_layer, edge.y = axis_edge, level.y = axis_level;
+            next.y = (middle - start.y) * inverse.y;
+        } else {
+            layer.z = axis_layer, edge.z = axis_edge, level.z = axis_level;
+            next.z = (middle - start.z) * inverse.z;
+        }
     }
     result.radiance *= volume.radiance_unit;
     return result;

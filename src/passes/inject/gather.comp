@@ -4,7 +4,7 @@
 #include "passes/cone_trace/cone_light.glsl"
 #include "passes/inject/record_work.glsl"
 
-layout(set = 0, binding = 19, std430) writeonly buffer Gathered { vec4 gathered[]; };
+layout(set = 0, binding = 19, std430) buffer Gathered { vec4 gathered[]; };
 layout(push_constant) uniform Push { InjectConstants push; };
 
 void main() {
@@ -13,6 +13,7 @@ void main() {
     const VoxelFace face = voxel_face(push.grid, index / voxel_faces, index % voxel_faces);
     vec3 light = vec3(0.0f);
     if (face.area > 0.0f && face.albedo != vec3(0.0f) && face.normal != vec3(0.0f))
-        light = pi * diffuse_light(cone_origin(face.position, face.normal), face.normal, volume.gather_sets, vec2(0.0f)).radiance;
+        light = pi * diffuse_light(cone_origin(face.position, face.normal), face.normal, volume.gather_sets, push.gather_shift).radiance;
+    if (push.gather_weight < 1.0f) light = mix(gathered[index].rgb, light, push.gather_weight);
     gathered[index] = vec4(light, 0.0f);
 }

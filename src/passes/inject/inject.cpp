@@ -25,6 +25,28 @@ shading::FilterConstants level_constants(const InjectCascade& cascade, std::uint
 
 }  // namespace
 
+void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade) {
+    graph.add_pass(
+        "voxelize keep", PassKind::transfer,
+        [&](PassBuilder& pass) {
+            pass.read(cascade.surfaces.numbers, Usage::transfer_read);
+            pass.read(cascade.surfaces.cells, Usage::transfer_read);
+            pass.read(cascade.surfaces.levels, Usage::transfer_read);
+            pass.write(cascade.shown.numbers, Usage::transfer_write);
+            pass.write(cascade.shown.cells, Usage::transfer_write);
+            pass.write(cascade.shown.levels, Usage::transfer_write);
+        },
+        [cascade](PassContext& context) {
+            if (*cascade.outdated) return;
+            const auto keep = [&](graph::BufferHandle from, graph::BufferHandle to) {
+                context.commands.copy(context.buffer(from), context.buffer(to), context.buffer(to).size());
+            };
+            keep(cascade.surfaces.numbers, cascade.shown.numbers);
+            keep(cascade.surfaces.cells, cascade.shown.cells);
+            keep(cascade.surfaces.levels, cascade.shown.levels);
+        });
+}
+
 Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
                               graph::ImageHandle faces, bool levels) {
     auto clear_records = pipelines.compute("passes/inject/clear_records.comp");
@@ -32,24 +54,25 @@ Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, co
     auto clear_levels = pipelines.compute("passes/inject/clear_levels.comp");
     if (!clear_levels) return tl::unexpected(clear_levels.error());
     graph.add_pass(
-        "voxelize clear volume", PassKind::compute,
+        "voxelize empty", PassKind::compute,
         [&](PassBuilder& pass) {
-            pass.read(cascade.surfaces.numbers, Usage::storage_read);
-            pass.read(cascade.surfaces.numbers, Usage::indirect);
-            pass.read(cascade.surfaces.cells, Usage::storage_read);
+            pass.read(cascade.shown.numbers, Usage::storage_read);
+            pass.read(cascade.shown.numbers, Usage::indirect);
+            pass.read(cascade.shown.cells, Usage::storage_read);
             pass.read(cascade.surfaces.records, Usage::storage_read);
-            pass.read(cascade.surfaces.levels, Usage::storage_read);
-            pass.read(cascade.surfaces.levels, Usage::indirect);
+            pass.read(cascade.shown.levels, Usage::storage_read);
+            pass.read(cascade.shown.levels, Usage::indirect);
             pass.write(faces, Usage::storage_write);
         },
         [cascade, faces, levels, clear_records = *clear_records, clear_levels = *clear_levels](PassContext& context) {
+            if (!*cascade.outdated) return;
             const VoxelSurfaces& surfaces = cascade.surfaces;
-            const gpu::Buffer& numbers = context.buffer(surfaces.numbers);
+            const gpu::Buffer& numbers = context.buffer(cascade.shown.numbers);
             const gpu::Image& image = context.image(faces);
             context.commands.dispatch_indirect(
                 *clear_records, *cascade.constants,
-                {numbers, context.buffer(surfaces.cells), context.buffer(surfaces.records), image.mip(0)}, numbers, record_groups);
-            const gpu::Buffer& lists = context.buffer(surfaces.levels);
+                {numbers, context.buffer(cascade.shown.cells), context.buffer(surfaces.records), image.mip(0)}, numbers, record_groups);
+            const gpu::Buffer& lists = context.buffer(cascade.shown.levels);
             for (std::uint32_t level = 1; levels && level < level_count(surfaces.size); ++level)
                 context.commands.dispatch_indirect(*clear_levels, level_constants(cascade, level), {lists, image.mip(level)},
                                                    lists, level_groups(level));
@@ -99,7 +122,7 @@ Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const Sc
             pass.read(cascade.surfaces.cells, Usage::storage_read);
             pass.read(cascade.surfaces.records, Usage::storage_read);
             pass.read(faces, Usage::sampled);
-            pass.write(cascade.gathered, Usage::storage_write);
+            pass.read_write(cascade.gathered, Usage::storage_read_write);
         },
         [&scene, &volume, cascade, faces, gather = *pipeline](PassContext& context) {
             const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);

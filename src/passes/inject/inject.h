@@ -7,15 +7,26 @@
 
 namespace heliodon::passes {
 
+/// Which voxels of a cascade the texture shows, kept while its surfaces are voxelized anew.
+struct ShownVoxels {
+    graph::BufferHandle numbers;  ///< VoxelHeader
+    graph::BufferHandle cells, levels;
+};
+
 /// One cascade as injection works on it.
 struct InjectCascade {
     const shading::InjectConstants* constants = nullptr;  ///< the owner keeps them at one address and up to date
+    /// The texture still shows surfaces that have been voxelized anew since.
+    const bool* outdated = nullptr;
+    ShownVoxels shown;
     VoxelSurfaces surfaces;
     graph::BufferHandle illuminance;  ///< of the lights in lux: 16 bytes a record's face
     graph::BufferHandle gathered;     ///< of the volume and the sky, as above
 };
 
-/// Empties what the volume's texture holds of a cascade, by the records it was made of; `levels`: its coarse levels too.
+/// Keeps the lists of the voxels that the texture shows, unless they are kept already.
+void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade);
+/// If the texture is outdated, empties what it shows of a cascade; `levels`: its coarse levels too.
 [[nodiscard]] Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
                                             graph::ImageHandle faces, bool levels);
 /// Illuminance of one batch of lights (light_first and light_count of the constants) by the resident shadow maps.

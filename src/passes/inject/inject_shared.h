@@ -10,6 +10,9 @@ struct InjectConstants {
     uint light_first;
     uint light_count;
     uint add;  // 1: further lights, added to those before
+    vec2 gather_shift;   // of diffuse_cone()
+    float gather_weight; // of what is gathered now against what was before
+    float padding;
 };
 
 /// Work on the occupied voxels of one level of the last cascade.

@@ -25,18 +25,23 @@ Result<void> add_shadow(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInp
             pass.write(maps.slope, graph::Usage::color_attachment);
         },
         [&scene, &inputs, lists, maps, opaque = *opaque, tested = *tested](graph::PassContext& context) {
-            for (std::uint32_t view = 0; view < inputs.view_count; ++view) {
+            const auto draw_view = [&](const gpu::GraphicsPipeline& pipeline, std::uint32_t view, std::uint32_t list) {
+                context.commands.bind(pipeline, RasterConstants{view, inputs.random_seed},
+                                      select_bindings(pipeline, scene, {{8, *inputs.views}}));
+                draw_list(context, scene, lists, view, list);
+            };
+            for (std::size_t next = 0; next < inputs.draws.size();) {
+                const std::uint32_t layer = inputs.draws[next].layer;
                 gpu::Rendering rendering;
-                rendering.depth = gpu::DepthAttachment{.view = context.image(maps.depth).layer(view), .clear = 0.0f};
+                rendering.depth = gpu::DepthAttachment{.view = context.image(maps.depth).layer(layer), .clear = 0.0f};
                 // Where nothing stands the slope is never looked at.
-                rendering.color.push_back({.view = context.image(maps.slope).layer(view), .load = VK_ATTACHMENT_LOAD_OP_DONT_CARE});
+                rendering.color.push_back({.view = context.image(maps.slope).layer(layer), .load = VK_ATTACHMENT_LOAD_OP_DONT_CARE});
                 context.commands.begin_rendering(rendering);
-                const RasterConstants push{view, inputs.random_seed};
-                context.commands.bind(*opaque, push, select_bindings(*opaque, scene, {{8, *inputs.views}}));
-                draw_list(context, scene, lists, view, shading::draw_list_opaque);
-                if (scene.has_tested || scene.has_blended) {
-                    context.commands.bind(*tested, push, select_bindings(*tested, scene, {{8, *inputs.views}}));
-                    draw_list(context, scene, lists, view, shading::draw_list_tested);
+                for (; next < inputs.draws.size() && inputs.draws[next].layer == layer; ++next) {
+                    context.commands.set_viewport(inputs.draws[next].area);
+                    draw_view(*opaque, inputs.draws[next].view, shading::draw_list_opaque);
+                    if (scene.has_tested || scene.has_blended)
+                        draw_view(*tested, inputs.draws[next].view, shading::draw_list_tested);
                 }
                 context.commands.end_rendering();
             }
