@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -52,7 +53,8 @@ protected:
                 shading::tone_hable(glm::vec3(p[0], p[1], p[2]) * shading::exposure_scale(picture.ev100)));
             for (int c = 0; c < 3; ++c) p[c] = encoded[c];
         }
-        const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+        std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+        std::replace(name.begin(), name.end(), '/', '-');  // parameters of a test
         shown.layers.clear();
         const auto written =
             write_picture(std::filesystem::path(folder) / (name + std::to_string(saved++) + ".png"), shown);
