@@ -73,8 +73,12 @@ protected:
         gpu::DeviceSettings device_settings;
         device_settings.pipeline_cache_directory = "";
         device_ = value_of(gpu::Device::create(value_of(gpu::Instance::create(settings)), device_settings));
+        pipelines_ = std::make_unique<gpu::Pipelines>(*device_, gpu::ShaderLibrary(passes::embedded_shaders()));
     }
-    static void TearDownTestSuite() { device_.reset(); }
+    static void TearDownTestSuite() {
+        pipelines_.reset();
+        device_.reset();
+    }
     void TearDown() override {
         value_of(device().wait_idle());
         for (const auto& message : device().validation_messages()) ADD_FAILURE() << message;
@@ -122,7 +126,7 @@ protected:
         const passes::VoxelSurfaces surfaces{make("numbers", sizes.numbers), make("cells", sizes.cells),
                                              make("records", sizes.records), make("tiles", sizes.tiles),
                                              make("levels", sizes.levels), grid.size, capacity.records, capacity.tiles};
-        value_of(add(graph, pipelines_, tables, inputs, surfaces));
+        value_of(add(graph, *pipelines_, tables, inputs, surfaces));
         graph::Executor executor(device());
         value_of(executor.set_graph(graph));
         auto commands = value_of(device().begin_commands("voxelize"));
@@ -157,7 +161,7 @@ protected:
 
 private:
     static inline std::unique_ptr<gpu::Device> device_;
-    gpu::Pipelines pipelines_{*device_, gpu::ShaderLibrary(passes::embedded_shaders())};
+    static inline std::unique_ptr<gpu::Pipelines> pipelines_;
 };
 
 inline NodeId add_mesh(Scene& scene, Mesh mesh, MaterialId material, const Transform& transform = {}) {

@@ -315,6 +315,28 @@ TEST_F(Voxelization, MaterialsSayWhatStopsLightAndWhatGivesIt) {
     EXPECT_NEAR(mean(16, 3, voxel_field_area), 1, 1e-5);
 }
 
+TEST_F(Voxelization, MoreTrianglesThanOneRowOfWorkgroupsAreAllFound) {
+    const VoxelGrid grid = grid_over(glm::vec3(-1), 2, 32);
+    const auto with_others = [&](std::size_t most_triangles) {
+        Scene crowd;
+        const MaterialId material = crowd.add_material(lambert(glm::vec3(0.5f)));
+        const GeometryId ball = crowd.add_shape(Sphere{{0, 0, 0}, 0.6f});
+        const std::size_t triangles = crowd.geometries().find(ball)->mesh.triangle_count();
+        for (std::size_t after = triangles;; after += triangles) {
+            Node node;
+            const bool last = after > most_triangles;
+            node.transform.translation = glm::vec3(last ? 0 : 10);  // the others are outside the grid
+            node.parts.push_back({ball, material});
+            crowd.add_node(std::move(node));
+            if (last) return voxelize(crowd, grid, {});
+        }
+    };
+    const Voxels alone = with_others(0), among = with_others(std::size_t{groups_a_row} * 64);
+    EXPECT_GT(alone.records.size(), 1000u);
+    EXPECT_EQ(among.records.size(), alone.records.size());
+    EXPECT_NEAR(among.total(0, voxel_field_area), alone.total(0, voxel_field_area), 1e-2);
+}
+
 TEST_F(Voxelization, TheRasterizerFindsTheSameVoxelsAndSums) {
     add_mesh(scene, tessellate(Sphere{{0.1f, 0.2f, 0.3f}, 0.5f}, 64), grey);
     add_mesh(scene, torus_knot_mesh(2, 3, 0.85f, 0.16f, 1200), grey, {.rotation = rotation_from_euler_deg({10, 20, 30})});
