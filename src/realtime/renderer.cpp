@@ -242,10 +242,12 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
     TimeSeries series;
     const bool time_still = statistics && options.frames_timed <= 0;
     const AovKind radiance{"", shading::frame_aov_none, 3, false, true};
-    auto image = state_->accumulate(camera, options, radiance, time_still ? &series : nullptr, progress);
-    if (!image) return tl::unexpected(image.error());
     Picture picture;
-    picture.image = std::move(*image);
+    if (options.samples > 0) {
+        auto image = state_->accumulate(camera, options, radiance, time_still ? &series : nullptr, progress);
+        if (!image) return tl::unexpected(image.error());
+        picture.image = std::move(*image);
+    }
     picture.ev100 = camera.ev100();
     picture.has_ev100 = true;
     if (statistics) {

@@ -35,7 +35,7 @@ struct RealtimeSettings {
 };
 struct RealtimeOptions {
     int width = 1024, height = 768;
-    int samples = 64;           ///< jittered frames accumulated into a still picture
+    int samples = 64;           ///< jittered frames accumulated into a still picture; 0: none, to time frames alone
     std::uint32_t seed = 0;
     std::string gi = "none";    ///< or vct: voxel cone tracing, as the scene's render block has it
     bool environment = true;    ///< false: the sky gives no light and is black

@@ -1,4 +1,5 @@
 // `heliodon bench`: what it measures and says. How long it takes is not tested.
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -19,66 +20,92 @@ protected:
         EXPECT_EQ(ended.code, 0) << ended.error;
         return ended.code == 0 ? json::parse(ended.output) : json::object();
     }
+    /// Two walls, one of them glowing with `emission` cd/m², and `nodes` besides.
+    [[nodiscard]] static std::string walls(const char* emission, const char* nodes) {
+        return fmt::format(R"({{"heliodon": 1, "cameras": [{{"name": "c"}}], "render": {{"shadow_map_size": 128}},
+          "materials": {{"wall": {{"model": "lambert", "emission_nits": {}}}}},
+          "nodes": [{{"shape": {{"type": "quad", "origin": [-1,0,-1], "u": [2,0,0], "v": [0,2,0]}}, "material": "wall"}},
+                    {{"shape": {{"type": "quad", "origin": [-1,0,-1], "u": [0,0,2], "v": [2,0,0]}}}}{}]}})",
+                           emission, nodes);
+    }
+    static std::set<int> tests_of(const json& table) {
+        std::set<int> numbers;
+        for (const json& row : table["timings"]) numbers.insert(row["test"].get<int>());
+        return numbers;
+    }
+    static constexpr const char* bulb = R"(, {"light": {"type": "point", "intensity_cd": 9}, "translate": [0,1,0]})";
 };
 
-TEST_F(Bench, MeasuresEveryTestOfTheBuiltInSceneAndItsStepsAddUp) {
-    const json table = measure({"--path-seconds", "0.5"});
+TEST_F(Bench, MeasuresEveryTestOfASceneAndItsStepsAddUp) {
+    write("s.heliodon.json", walls("0", bulb));
+    write("s-emissive.heliodon.json", walls("60", ""));
+    const json table = measure({"--scene", "s.heliodon.json", "--path-seconds", "0.5"});
     ASSERT_TRUE(table.contains("timings"));
-    EXPECT_GT(table["triangles"], 400'000);
     std::set<std::string> rows;
+    std::map<std::string, double> voxelize_ms;
     for (const json& row : table["timings"]) {
         rows.insert(fmt::format("{} {} {}", row["test"].dump(), row["voxels"].dump(), row["revoxelize"].dump()));
         EXPECT_GT(row["frame_mean_ms"], 0);
-        EXPECT_GT(row["frame_median_ms"], 0);
         double steps = 0;
         for (const auto& [name, ms] : row["steps"].items()) steps += ms.get<double>();
-        // The median of a sum is not the sum of medians.
-        EXPECT_NEAR(steps, row["frame_median_ms"], 0.5 * row["frame_median_ms"].get<double>()) << row.dump();
+        // The sum of medians is not the median of the sum, and a busy machine varies.
+        EXPECT_GT(steps, 0.4 * row["frame_median_ms"].get<double>()) << row.dump();
+        EXPECT_LT(steps, 2.5 * row["frame_median_ms"].get<double>()) << row.dump();
         const bool volume = row["test"] != 1;
         EXPECT_EQ(row["steps"]["cone_trace_ms"] > 0, volume) << row.dump();
-        EXPECT_EQ(row["steps"]["voxelize_ms"] > 0, volume && row["revoxelize"] == "always") << row.dump();
+        voxelize_ms[row["revoxelize"].dump()] += row["steps"]["voxelize_ms"].get<double>();
     }
+    EXPECT_EQ(voxelize_ms["null"], 0);
+    EXPECT_GT(voxelize_ms["\"always\""], 4 * voxelize_ms["\"once\""]) << "which only empties what it lights anew";
     std::set<std::string> expected{"1 null null"};
     for (const char* test : {"2", "3", "4", "5"})
         for (const char* when : {"always", "once"}) expected.insert(fmt::format("{} 32 \"{}\"", test, when));
     EXPECT_EQ(rows, expected);
     EXPECT_EQ(table["timings"][0]["published_gtx_960_ms"], 4.09);
     EXPECT_EQ(table["published_steps_gtx_960"]["voxelize_ms"], 1.96);
-}
 
-TEST_F(Bench, ComparesWithThePathTracerAtEqualError) {
-    const json equal = measure({"--path-seconds", "0.5"})["equal_error"];
+    const json equal = table["equal_error"];
     ASSERT_TRUE(equal.is_object());
     EXPECT_GT(equal["frame_relmse"], 0);
     EXPECT_GT(equal["reference_spp"], equal["path_measured"][1]["spp"]);
     EXPECT_EQ(equal["path_measured"].size(), 2u);
     EXPECT_GT(equal["path_measured"][0]["relmse"], equal["path_measured"][1]["relmse"]) << "error falls with samples";
     if (equal["path_seconds"].is_null()) return;  // a reference of half a second may be too noisy, and is said to be
-    EXPECT_NEAR(equal["path_over_frame"], equal["path_seconds"].get<double>() * 1000 / equal["frame_mean_ms"].get<double>(),
-                1e-6 * equal["path_over_frame"].get<double>());
+    const double ratio = equal["path_seconds"].get<double>() * 1000 / equal["frame_mean_ms"].get<double>();
+    EXPECT_NEAR(equal["path_over_frame"], ratio, 1e-6 * ratio);
 }
 
-TEST_F(Bench, TakesASceneFileAndTheOneBesideItThatItsWallLights) {
-    const auto scene = [&](const char* emission, const char* lamp) {
-        return fmt::format(R"({{"heliodon": 1, "cameras": [{{"name": "c"}}],
-          "materials": {{"wall": {{"model": "lambert", "emission_nits": {}}}}},
-          "nodes": [{{"shape": {{"type": "quad", "origin": [-1,0,-1], "u": [2,0,0], "v": [0,2,0]}}, "material": "wall"}},
-                    {{"shape": {{"type": "quad", "origin": [-1,0,-1], "u": [0,0,2], "v": [2,0,0]}}}}{}]}})",
-                           emission, lamp);
-    };
-    write("s.heliodon.json", scene("0", R"(, {"light": {"type": "point", "intensity_cd": 9}, "translate": [0,1,0]})"));
-    const auto tests = [](const json& table) {
-        std::set<int> numbers;
-        for (const json& row : table["timings"]) numbers.insert(row["test"].get<int>());
-        return numbers;
-    };
-    EXPECT_EQ(tests(measure({"--scene", "s.heliodon.json", "--path-seconds", "0"})), (std::set<int>{1, 2, 3, 4}));
-    write("s-emissive.heliodon.json", scene("60", ""));
-    const json both = measure({"--scene", "s.heliodon.json", "--path-seconds", "0", "--set", "render.bounces=1"});
-    EXPECT_EQ(tests(both), (std::set<int>{1, 2, 3, 4, 5}));
-    EXPECT_TRUE(both["equal_error"].is_null());
-    EXPECT_EQ(tests(measure({"--scene", "s-emissive.heliodon.json", "--path-seconds", "0"})), (std::set<int>{5}));
-    EXPECT_EQ(files(), (std::vector<std::string>{"s-emissive.heliodon.json", "s.heliodon.json"}));
+TEST_F(Bench, TakesTheTestsThatTheSceneAndTheUserAskFor) {
+    write("s.heliodon.json", walls("0", bulb));
+    const json lit = measure({"--scene", "s.heliodon.json", "--path-seconds", "0", "--set", "render.bounces=1"});
+    EXPECT_EQ(tests_of(lit), (std::set<int>{1, 2, 3, 4})) << "no emissive scene lies beside it";
+    EXPECT_TRUE(lit["equal_error"].is_null());
+    write("e.heliodon.json", walls("60", ""));
+    EXPECT_EQ(tests_of(measure({"--scene", "e.heliodon.json", "--path-seconds", "0"})), (std::set<int>{5}));
+    const json direct = measure({"--tests", "1"});
+    EXPECT_EQ(tests_of(direct), (std::set<int>{1}));
+    EXPECT_NEAR(direct["triangles"].get<double>(), 450e3, 10e3) << "of the built-in scene";
+    EXPECT_EQ(files(), (std::vector<std::string>{"e.heliodon.json", "s.heliodon.json"}));
+}
+
+TEST_F(Bench, CostHasARowForEachAmountOfWork) {
+    const Ended ended = run({"bench", "cost", "--series", "pixels", "--size", "32x24", "--frames", "1", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json series = json::parse(ended.output)["series"];
+    ASSERT_EQ(series.size(), 1u);
+    std::vector<int> pixels;
+    for (const json& row : series[0]["rows"]) pixels.push_back(row["pixels"].get<int>());
+    EXPECT_EQ(pixels, (std::vector<int>{16 * 12, 32 * 24, 64 * 48}));
+    EXPECT_TRUE(series[0]["rows"][0]["time_over_work"].is_null());
+    EXPECT_GT(series[0]["rows"][2]["time_over_work"], 0);
+}
+
+TEST_F(Bench, SaysWhereNoneOfTheTestsAskedForIsOfTheScene) {
+    write("s.heliodon.json", walls("0", bulb));
+    const Ended ended = run({"bench", "natus", "--scene", "s.heliodon.json", "--tests", "5"});
+    EXPECT_EQ(ended.code, 1);
+    EXPECT_EQ(ended.error.rfind("heliodon: s.heliodon.json: expected lights", 0), 0u) << ended.error;
+    EXPECT_TRUE(ended.output.empty());
 }
 
 TEST_F(Bench, RefusesASceneThatIsNotThereWithOneLine) {

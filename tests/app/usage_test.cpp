@@ -72,6 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongUsage{"BenchUnknown", {"bench", "quake"}, "\"quake\""},
                     WrongUsage{"BenchGrid", {"bench", "natus", "--voxels", "64,100"}, "\"100\""},
                     WrongUsage{"BenchGridTwice", {"bench", "natus", "--voxels", "64,64"}, "once"},
+                    WrongUsage{"BenchTest", {"bench", "natus", "--tests", "4,6"}, "\"6\""},
                     WrongUsage{"BenchFramesZero", {"bench", "natus", "--frames", "0"}, "--frames"},
                     WrongUsage{"BenchTimeNegative", {"bench", "natus", "--path-seconds", "-1"}, "--path-seconds"},
                     WrongUsage{"BenchSeries", {"bench", "cost", "--series", "lights,dust"}, "\"dust\""},

@@ -30,6 +30,17 @@ std::vector<int> read_grids(const std::string& text) {
     return grids;
 }
 
+std::vector<int> read_tests(const std::string& text) {
+    std::vector<int> tests;
+    for (const std::string& test : CLI::detail::split(text, ',')) {
+        if (test.size() != 1 || test[0] < '1' || test[0] > '5')
+            throw CLI::ValidationError("--tests", "expected numbers from 1 to 5, found \"" + test + "\"");
+        tests.push_back(test[0] - '0');
+    }
+    refuse_repeats("--tests", tests, text);
+    return tests;
+}
+
 std::vector<std::string> read_series(const std::string& text) {
     std::vector<std::string> names = CLI::detail::split(text, ',');
     for (const std::string& name : names)
@@ -77,6 +88,9 @@ Action declare_bench(CLI::App& command) {
     command.add_option_function<std::string>(
         "--voxels", [&natus](Text text) { natus.voxels = read_grids(text); },
         "natus: grids to measure, voxels an edge; default 256,128,64");
+    command.add_option_function<std::string>(
+        "--tests", [&natus](Text text) { natus.tests = read_tests(text); },
+        "natus: which of the tests; default 1,2,3,4,5. The path tracer is compared with test 4");
     command.add_option("--frames", natus.timing.frames, "Frames to time of each, after warm-up; default 50")
         ->check(check_positive);
     command.add_option("--path-seconds", natus.path_seconds,

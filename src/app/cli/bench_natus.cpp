@@ -1,5 +1,6 @@
 #include "app/cli/bench_natus.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string_view>
 #include <utility>
@@ -40,16 +41,17 @@ void set_up(Scene& scene, const NatusTiming& timing) {
 }
 
 /// Everything that is timed of one scene, in the order of the table.
-std::vector<NatusTiming> plan(bool emissive, const std::vector<int>& voxels) {
+std::vector<NatusTiming> plan(bool emissive, const NatusOptions& options) {
     std::vector<NatusTiming> timings;
     for (const NatusTest& test : natus_tests) {
-        if (test.emissive != emissive) continue;
+        const bool wanted = std::find(options.tests.begin(), options.tests.end(), test.number) != options.tests.end();
+        if (test.emissive != emissive || !wanted) continue;
         if (!test.gi) {
             timings.push_back({test});
             continue;
         }
         for (const bool each_frame : {true, false})
-            for (const int edge : voxels) timings.push_back({test, edge, each_frame});
+            for (const int edge : options.voxels) timings.push_back({test, edge, each_frame});
     }
     return timings;
 }
@@ -75,10 +77,12 @@ Result<void> compare_with_paths(FrameTimer& timer, Scene& scene, const NatusTimi
     return {};
 }
 
+/// Nothing where none of the tests asked for is of this scene.
 Result<void> measure(Scene scene, const std::string& name, const NatusOptions& options, NatusReport& report) {
+    std::vector<NatusTiming> timings = plan(!has_lights(scene), options);
+    if (timings.empty()) return {};
     auto timer = FrameTimer::create(scene, name, options.timing);
     if (!timer) return tl::unexpected(timer.error());
-    std::vector<NatusTiming> timings = plan(!has_lights(scene), options.voxels);
     {
         ProgressBar bar("bench");
         const Progress progress = bar.callback();
@@ -106,32 +110,41 @@ std::optional<std::string> emissive_beside(const std::string& path) {
     return std::filesystem::exists(beside, error) ? std::optional(std::move(beside)) : std::nullopt;
 }
 
-}  // namespace
+Result<void> measure_built_in(const NatusOptions& options, NatusReport& report) {
+    report.scene = "built-in";
+    Scene scene = natus_scene(false);
+    report.triangles = triangle_count(scene);
+    if (auto done = measure(std::move(scene), report.scene, options, report); !done) return done;
+    return measure(natus_scene(true), report.scene, options, report);
+}
 
-Result<NatusReport> run_natus(const NatusOptions& options) {
-    NatusReport report;
-    if (options.scene.path.empty()) {
-        report.scene = "built-in";
-        Scene scene = natus_scene(false);
-        report.triangles = triangle_count(scene);
-        if (auto done = measure(std::move(scene), "built-in", options, report); !done) return tl::unexpected(done.error());
-        if (auto done = measure(natus_scene(true), "built-in", options, report); !done) return tl::unexpected(done.error());
-        return report;
-    }
+Result<void> measure_file(const NatusOptions& options, NatusReport& report) {
     report.scene = options.scene.path;
     auto scene = load(options.scene);
     if (!scene) return tl::unexpected(scene.error());
     report.triangles = triangle_count(*scene);
     const bool lit = has_lights(*scene);
-    if (auto done = measure(std::move(*scene), report.scene, options, report); !done) return tl::unexpected(done.error());
+    if (auto done = measure(std::move(*scene), report.scene, options, report); !done) return done;
     const auto beside = emissive_beside(options.scene.path);
-    if (!lit || !beside) return report;
+    const bool wanted = std::find(options.tests.begin(), options.tests.end(), 5) != options.tests.end();
+    if (!lit || !beside || !wanted) return {};
     say("test 5: " + *beside);
     SceneArgument argument = options.scene;
     argument.path = *beside;
     auto emissive = load(argument);
     if (!emissive) return tl::unexpected(emissive.error());
-    if (auto done = measure(std::move(*emissive), *beside, options, report); !done) return tl::unexpected(done.error());
+    return measure(std::move(*emissive), *beside, options, report);
+}
+
+}  // namespace
+
+Result<NatusReport> run_natus(const NatusOptions& options) {
+    NatusReport report;
+    const auto done = options.scene.path.empty() ? measure_built_in(options, report) : measure_file(options, report);
+    if (!done) return tl::unexpected(done.error());
+    if (report.timings.empty())
+        return fail(report.scene, "expected lights for tests 1 to 4 or none for test 5, found nothing to measure of those "
+                                  "asked for");
     return report;
 }
 

@@ -43,6 +43,7 @@ struct NatusOptions {
     SceneArgument scene;  ///< no path: the built-in scene
     TimingOptions timing;
     std::vector<int> voxels{256, 128, 64};
+    std::vector<int> tests{1, 2, 3, 4, 5};
     double path_seconds = 60;  ///< of the reference; 0: no comparison with the path tracer
 };
 

@@ -52,7 +52,7 @@ Result<FrameTime> FrameTimer::time(Size size, Picture* picture) {
     RealtimeOptions options;
     options.width = size.width;
     options.height = size.height;
-    options.samples = 1;
+    options.samples = picture ? 1 : 0;
     options.gi = scene_->render_settings().gi;
     options.frames_timed = frames_;
     RealtimeStatistics numbers;
