@@ -179,23 +179,71 @@ TEST(RangeAllocator, ReleasedNeighboursBecomeOneHoleAgain) {
     EXPECT_EQ(ranges.allocate(50), 100u);
 }
 
-TEST(ShadowPlan, LightsBeyondTheBudgetGoToFurtherBatchesAndHolesNowhere) {
-    std::vector<shading::LightData> lights(5);
+std::vector<shading::LightData> point_lights(std::size_t count) {
+    std::vector<shading::LightData> lights(count);
     for (auto& light : lights) {
         light = {};
         light.intensity = glm::vec3(1);
         light.type = shading::light_type_point;
         light.axis = {0, 0, -1};
     }
+    return lights;
+}
+const Bounds unit_room{glm::vec3(-1), glm::vec3(1)};
+
+TEST(ShadowPlan, LightsBeyondTheBudgetOfViewsGoToFurtherBatchesAndHolesNowhere) {
+    auto lights = point_lights(5);
     lights[1].type = shading::light_type_none;
     lights[3].type = shading::light_type_directional;
-    const auto plan = realtime::plan_shadows(lights, 12);
+    const auto plan = realtime::plan_shadows(lights, unit_room, {.layer_size = 256, .layers = 12, .views = 12});
     ASSERT_EQ(plan.batches.size(), 2u);
     EXPECT_EQ(plan.active_lights, (std::vector<std::uint32_t>{0, 2, 3, 4}));
     EXPECT_EQ(plan.batches[0].light_count, 2u);
     EXPECT_EQ(plan.batches[1].view_count, 7u);
     EXPECT_EQ(plan.shadow_of_light[1], shading::no_texture);
     EXPECT_EQ(plan.shadow_of_light[4], 0x80000001u);
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        EXPECT_EQ(plan.views[i].place.layer, i);
+        EXPECT_EQ(plan.views[i].place.size, 256u);
+    }
+}
+
+TEST(ShadowPlan, MapsThatDoNotFitShareLayersTheBrightestLightsTheLargest) {
+    auto lights = point_lights(300);
+    for (std::size_t i = 0; i < lights.size(); ++i) lights[i].intensity *= 1.0f + static_cast<float>(i % 7);
+    lights[100].type = shading::light_type_directional;
+    lights[100].intensity = glm::vec3(10000);
+    for (const std::uint32_t size : {512u, 500u, 37u}) {
+        const auto plan = realtime::plan_shadows(lights, unit_room, {.layer_size = size, .layers = 16, .views = 32768});
+        std::uint32_t placed = 0;
+        for (const auto& batch : plan.batches) {
+            EXPECT_LE(batch.layer_count, 16u);
+            // Every texel has one owner.
+            std::vector<bool> taken(std::size_t{16} * size * size);
+            for (std::uint32_t v = batch.first_view; v < batch.first_view + batch.view_count; ++v, ++placed) {
+                const auto& place = plan.views[v].place;
+                ASSERT_LE(place.x + place.size, size);
+                ASSERT_LE(place.y + place.size, size);
+                ASSERT_LT(place.layer, batch.layer_count);
+                for (std::uint32_t y = place.y; y < place.y + place.size; ++y)
+                    for (std::uint32_t x = place.x; x < place.x + place.size; ++x) {
+                        const std::size_t texel = (std::size_t{place.layer} * size + y) * size + x;
+                        ASSERT_FALSE(taken[texel]);
+                        taken[texel] = true;
+                    }
+            }
+        }
+        EXPECT_EQ(placed, 299u * 6 + 1);
+        if (size != 37u) EXPECT_EQ(plan.batches.size(), 1u);
+        const auto map_of = [&](std::uint32_t light) {
+            for (const auto& view : plan.views)
+                if (view.light == light) return view.place.size;
+            return 0u;
+        };
+        EXPECT_EQ(map_of(100), size);
+        EXPECT_GE(map_of(6), map_of(0));
+        EXPECT_GE(map_of(0), std::min(16u, size / 2));
+    }
 }
 
 /// The shared natus scene: 450 000 triangles.
