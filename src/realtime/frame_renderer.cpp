@@ -12,6 +12,7 @@
 #include "passes/accumulate/accumulate.h"
 #include "passes/blend/blend.h"
 #include "passes/cull/cull.h"
+#include "passes/light_grid/light_grid_shared.h"
 #include "passes/tonemap/tonemap.h"
 #include "passes/visibility/visibility.h"
 #include "realtime/area_light.h"
@@ -85,14 +86,19 @@ Result<void> FrameRenderer::open() {
     timestamps_ = std::move(*timestamps);
     auto nearest = device_.sampler(gpu::SamplerDescription::nearest_clamp());
     if (!nearest) return tl::unexpected(nearest.error());
-    lighting_ = {&frame_buffer_, &shadow_views_, &shading_tables_, *nearest, &visible_lights_.buffer()};
+    lighting_ = {&frame_buffer_, &shadow_views_, &shading_tables_, *nearest, &visible_lights_.buffer(), &voxels_.inputs()};
+    if (auto done = voxels_.open(); !done) return done;
+    lighting_.light_grid = &light_grid_.buffer();
     shadow_inputs_.views = &shadow_cull_views_;
-    return {};
+    return light_grid_.reserve(device_, sizeof(shading::LightGridHeader), 0);
 }
 
 Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
     auto update = gpu_scene_.update(scene);
     if (!update) return update;
+    const bool cone_shadows = scene.render_settings().gi == "vct" && scene.render_settings().vct.shadows;
+    if (cone_shadows != cone_shadows_) planned_lights_ = ~0ull;
+    cone_shadows_ = cone_shadows;
     settings_ = scene.render_settings();
     const int size = std::clamp(scene.render_settings().shadow_map_size, 1, static_cast<int>(device_.limits().maxImageDimension2D));
     if (size != shadow_map_size_) planned_lights_ = ~0ull;
@@ -105,16 +111,28 @@ Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
 }
 
 Result<void> FrameRenderer::plan_lights() {
-    plan_ = plan_shadows(gpu_scene_.flat().lights(), gpu_scene_.bounds(),
+    const auto flat_lights = gpu_scene_.flat().lights();
+    lights_.assign(flat_lights.begin(), flat_lights.end());
+    has_cone_shadows_ = false;
+    for (shading::LightData& light : lights_)
+        if (cone_shadows_ && light.type != shading::light_type_none && light.radius > 0) {
+            const float radius = light.radius;
+            light = center_of_area_light(light);
+            light.cone_radius = radius;
+            has_cone_shadows_ = true;
+        }
+    plan_ = plan_shadows(lights_, gpu_scene_.bounds(),
                          shadow_budget(device_, shadow_map_size_, gpu_scene_.instance_count()));
     planned_lights_ = gpu_scene_.light_revision();
     planned_instances_ = instance_capacity(gpu_scene_.instance_count());
     resident_shadows_ = {};
-    const auto lights = gpu_scene_.flat().lights();
     has_area_lights_ = std::any_of(plan_.active_lights.begin(), plan_.active_lights.end(),
-                                   [&](std::uint32_t light) { return lights[light].radius > 0; });
+                                   [&](std::uint32_t light) { return lights_[light].radius > 0; });
     if (auto done = upload_visible_lights(); !done) return done;
-    return gpu_scene_.set_light_shadows(plan_.shadow_of_light, plan_.active_lights);
+    if (auto done = gpu_scene_.set_light_shadows(plan_.shadow_of_light, plan_.active_lights); !done) return done;
+    for (const std::uint32_t light : plan_.active_lights)
+        if (auto done = gpu_scene_.stand_in_for_light(light, lights_[light]); !done) return done;
+    return {};
 }
 
 Result<void> FrameRenderer::upload_visible_lights() {
@@ -162,6 +180,9 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
     inputs_.has_tested = gpu_scene_.has_tested();
     inputs_.has_blended = gpu_scene_.has_blended();
     wanted_.aov = sample.aov != shading::frame_aov_none;
+    wanted_.cone_shadows = has_cone_shadows_;
+    if (lighting_.cone_shadows != has_cone_shadows_) voxels_.forget_passes();
+    lighting_.cone_shadows = has_cone_shadows_;
     wanted_.cone_traced = sample.cone_traced;
     wanted_.volume = key_.volume;
     if (!(wanted_ == key_)) {
@@ -206,7 +227,7 @@ Result<void> FrameRenderer::make_images() {
         maps.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
         if (auto done = make(shadow_slope_, maps); !done) return done;
         resident_shadows_ = {};
-        voxels_.forget_shadow_maps();
+        voxels_.forget_passes();
     }
     if (wanted_.shadow_views != key_.shadow_views) {
         auto cull_views = gpu::Buffer::create(device_, {"shadow cull views", wanted_.shadow_views * sizeof(shading::ViewData)});
@@ -252,15 +273,14 @@ Result<void> FrameRenderer::build_frame_graph() {
     const passes::ShadowMaps maps{graph.import_image(shadow_depth_.description()), graph.import_image(shadow_slope_.description())};
     const graph::ImageHandle sum = graph.import_image(sum_.description());
     graph.export_image(sum);
+    const graph::ImageHandle volume = graph.import_image(voxels_.faces().description());
     auto lists = passes::add_cull(graph, pipelines_, inputs_, {1, wanted_.instance_capacity, false}, camera_view_, camera_view_count_);
     if (!lists) return tl::unexpected(lists.error());
     auto visibility = passes::add_visibility(graph, pipelines_, inputs_, camera_view_, *lists, extent);
     if (!visibility) return tl::unexpected(visibility.error());
-    auto picture = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, extent, wanted_.aov);
+    auto picture = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, volume, extent, wanted_.aov);
     if (!picture) return tl::unexpected(picture.error());
-    graph::ImageHandle volume;
     if (wanted_.cone_traced) {
-        volume = graph.import_image(voxels_.faces().description());
         if (auto done = passes::add_cone_trace(graph, pipelines_, inputs_, lighting_, voxels_.inputs(), volume, *visibility,
                                                *picture, extent, wanted_.aov); !done)
             return done;
@@ -268,7 +288,7 @@ Result<void> FrameRenderer::build_frame_graph() {
     graph::BufferHandle fragments;
     if (wanted_.blended && !wanted_.aov) {
         fragments = graph.import_buffer(fragments_.description());
-        if (auto done = passes::add_blend(graph, pipelines_, inputs_, lighting_, camera_view_, *lists, *visibility, maps,
+        if (auto done = passes::add_blend(graph, pipelines_, inputs_, lighting_, camera_view_, *lists, *visibility, maps, volume,
                                           fragments, *picture, extent); !done)
             return done;
     }
@@ -283,15 +303,14 @@ Result<void> FrameRenderer::build_frame_graph() {
     frame_executor_->bind(maps.depth, shadow_depth_);
     frame_executor_->bind(maps.slope, shadow_slope_);
     frame_executor_->bind(sum, sum_);
-    if (volume) frame_executor_->bind(volume, voxels_.faces());
+    frame_executor_->bind(volume, voxels_.faces());
     if (fragments) frame_executor_->bind(fragments, fragments_);
     if (display) frame_executor_->bind(display, display_);
     return {};
 }
 
 Result<void> FrameRenderer::place_area_lights(const FrameSample& sample) {
-    const auto lights = gpu_scene_.flat().lights();
-    placed_lights_.assign(lights.begin(), lights.end());
+    placed_lights_ = lights_;
     if (!has_area_lights_) return {};
     for (const std::uint32_t index : plan_.active_lights) {
         shading::LightData& light = placed_lights_[index];
@@ -311,6 +330,7 @@ Result<void> FrameRenderer::record_shadows(gpu::Commands& commands, const FrameS
     glm::vec2 jitter(0);
     if (sample.jitter_shadows) jitter = sample_position(sample.shadow_index, 0, sample.seed) - 0.5f;
     if (auto done = place_area_lights(sample); !done) return done;
+    if (auto done = record_light_grid(commands, sample, batch, timestamps); !done) return done;
     const auto views = shadow_views(plan_, plan_.batches[batch], placed_lights_, gpu_scene_.bounds(), jitter);
     std::vector<shading::ViewData> cull_views;
     shadow_inputs_.draws.clear();

@@ -92,7 +92,7 @@ private:
     /// What the graphs depend on; they are rebuilt when it changes.
     struct GraphKey {
         int width = 0, height = 0;
-        bool display = false, blended = false, aov = false, cone_traced = false;
+        bool display = false, blended = false, aov = false, cone_traced = false, cone_shadows = false;
         std::uint32_t instance_capacity = 0, shadow_layers = 0, shadow_views = 0;
         int shadow_size = 0;
         std::uint32_t fragment_capacity = 0;
@@ -124,6 +124,8 @@ private:
     [[nodiscard]] Result<void> record_sensor_batch(const gpu::Buffer& sensors, std::uint32_t count, const FrameSample& sample,
                                                    std::size_t batch, const passes::SensorLights& lights);
     [[nodiscard]] Result<void> place_area_lights(const FrameSample& sample);
+    [[nodiscard]] Result<void> record_light_grid(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
+                                                 gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> prepare(const Camera& camera, const FrameSample& sample);
     [[nodiscard]] Result<void> prepare_volume(const Camera& camera);
     /// Brings the volume up to date for a still picture: until light has converged. Waits.
@@ -159,11 +161,15 @@ private:
     int bounces_done_ = 0;                     // since the volume last changed
 
     ShadowPlan plan_;
+    bool cone_shadows_ = false;  // lights with an extent are to cast their shadows by cones
+    bool has_cone_shadows_ = false;
+    std::vector<shading::LightData> lights_;         // the scene's; those with shadows by cones at their centre
     std::vector<shading::LightData> placed_lights_;  // the scene's, those with an extent at one point of it
     bool has_area_lights_ = false;
     std::uint64_t planned_lights_ = ~0ull, prefiltered_sky_ = ~0ull;
     std::uint32_t planned_instances_ = 0;  // as a capacity
     ShadowKey resident_shadows_;
+    std::pair<std::uint64_t, std::size_t> light_grid_key_{~0ull, 0};  // scene revision, batch
     bool forced_shadows_ = false;  // in this frame, already
     int shadow_map_size_ = 2048;
 
@@ -178,7 +184,7 @@ private:
 
     gpu::Buffer frame_buffer_, camera_view_, shadow_cull_views_, shadow_views_, shading_tables_, fragments_;
     gpu::Image shadow_depth_, shadow_slope_, sum_, display_, sky_specular_, sky_irradiance_;
-    GrowingBuffer visible_lights_{"visible lights", 0};
+    GrowingBuffer visible_lights_{"visible lights", 0}, light_grid_{"light grid", 0};
     std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_;
     std::deque<gpu::TimelineValue> in_flight_;
 };

@@ -36,6 +36,12 @@ bool needs_cube(const LightData& light) {
     return light.type != shading::light_type_spot || light.cos_outer <= 0.0f || spot_tan(light) > widest_single_view_tan;
 }
 
+/// Lights with shadows by cones need no map.
+std::uint32_t view_count(const LightData& light) {
+    if (light.cone_radius > 0) return 0;
+    return needs_cube(light) ? 6 : 1;
+}
+
 struct Axes {
     glm::vec3 right, up, forward;
 };
@@ -178,7 +184,7 @@ void place_maps(ShadowPlan& plan, ShadowBatch& batch, std::span<const LightData>
     std::vector<std::uint32_t> halvings, order;
     for (std::uint32_t i = 0; i < batch.light_count; ++i) {
         const LightData& light = lights[plan.active_lights[batch.first_light + i]];
-        chosen.push_back({typical_illuminance(light, scene), needs_cube(light) ? 6u : 1u, 0});
+        chosen.push_back({typical_illuminance(light, scene), view_count(light), 0});
     }
     sizes.choose(chosen);
     for (const MapSizes::Light& light : chosen) halvings.insert(halvings.end(), light.views, light.halvings);
@@ -207,12 +213,12 @@ ShadowPlan plan_shadows(std::span<const LightData> lights, const Bounds& scene, 
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
         if (!shines(lights[i])) continue;
         const bool cube = needs_cube(lights[i]);
-        const std::uint32_t count = cube ? 6 : 1;
+        const std::uint32_t count = view_count(lights[i]);
         if (batch.view_count + count > most_views) {
             plan.batches.push_back(batch);
             batch = {static_cast<std::uint32_t>(plan.active_lights.size()), 0, static_cast<std::uint32_t>(plan.views.size()), 0};
         }
-        plan.shadow_of_light[i] = batch.view_count | (cube ? cube_flag : 0);
+        if (count > 0) plan.shadow_of_light[i] = batch.view_count | (cube ? cube_flag : 0);
         plan.active_lights.push_back(i);
         for (std::uint32_t face = 0; face < count; ++face) plan.views.push_back({i, face, cube, {}});
         ++batch.light_count;

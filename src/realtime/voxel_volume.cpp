@@ -64,20 +64,26 @@ Result<void> VoxelVolume::check_size(const VoxelSettings& settings) const {
     return {};
 }
 
-Result<void> VoxelVolume::make_texture() {
+Result<void> VoxelVolume::open() {
+    auto made = gpu::Buffer::create(device_, {"volume", sizeof(shading::VolumeData)});
+    if (!made) return tl::unexpected(made.error());
+    data_buffer_ = std::move(*made);
+    return make_texture({2, 1, 3});
+}
+
+Result<void> VoxelVolume::make_texture(VkExtent3D extent) {
     gpu::SamplerDescription sampler = gpu::SamplerDescription::linear_clamp();
     sampler.mipmap_mode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
     auto trilinear = device_.sampler(sampler);
     if (!trilinear) return tl::unexpected(trilinear.error());
-    const auto n = static_cast<std::uint32_t>(settings_.voxels), c = static_cast<std::uint32_t>(settings_.cascades);
     faces_ = {};
     auto made = gpu::Image::create(device_, {.name = "voxel faces", .format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                             .extent = {2 * n, c * n, 3 * n},
-                                             .mips = static_cast<std::uint32_t>(std::bit_width(n)),
+                                             .extent = extent,
+                                             .mips = static_cast<std::uint32_t>(std::bit_width(extent.width / 2)),
                                              .shape = gpu::ImageShape::volume, .usage = VK_IMAGE_USAGE_STORAGE_BIT});
     if (!made)
-        return fail("render.voxels", fmt::format("a volume of {} voxels an edge in {} cascades needs {} MiB: {}", n, c,
-                                                 texture_bytes(n, c) >> 20, made.error().text()));
+        return fail("render.voxels", fmt::format("a volume of {}x{}x{} texels: {}", extent.width, extent.height, extent.depth,
+                                                 made.error().text()));
     faces_ = std::move(*made);
     ++texture_revision_;
     inputs_ = {&faces_, &data_buffer_, *trilinear};
@@ -189,12 +195,8 @@ Result<void> VoxelVolume::prepare(const Source& source, const VoxelSettings& set
             record_capacity_ = std::max(record_capacity_, 4 * n * n);
             tile_capacity_ = std::max(tile_capacity_, 4 * n * n / (shading::voxel_tile_edge * shading::voxel_tile_edge));
         }
-        if (!data_buffer_) {
-            auto made = gpu::Buffer::create(device_, {"volume", sizeof(shading::VolumeData)});
-            if (!made) return tl::unexpected(made.error());
-            data_buffer_ = std::move(*made);
-        }
-        if (auto done = make_texture(); !done) return done;
+        const auto n = static_cast<std::uint32_t>(settings.voxels), c = static_cast<std::uint32_t>(settings.cascades);
+        if (auto done = make_texture({2 * n, c * n, 3 * n}); !done) return done;
         if (auto done = make_buffers(); !done) return done;
         listed_revision_ = ~0ull;
         ++placement_revision_;
@@ -206,7 +208,7 @@ Result<void> VoxelVolume::prepare(const Source& source, const VoxelSettings& set
     }
     if (auto done = place(source.scene, eye); !done) return done;
     for (auto& cascade : cascades_) cascade->voxelize.shading_tables = source.lighting.shading_tables;
-    if (remake_ || !shadow_maps_known_)
+    if (remake_ || !passes_known_)
         if (auto done = build_graphs(source); !done) return done;
     remake_ = false;
     return {};

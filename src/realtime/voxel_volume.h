@@ -23,6 +23,8 @@ class VoxelVolume {
 public:
     VoxelVolume(gpu::Device& device, gpu::Pipelines& pipelines);
 
+    /// A volume of nothing, so that inputs() always has one to bind.
+    [[nodiscard]] Result<void> open();
     struct Source {
         const GpuScene& scene;
         const passes::SceneInputs& inputs;
@@ -59,8 +61,8 @@ public:
     [[nodiscard]] const gpu::Image& faces() const { return faces_; }
     /// Goes up when the texture was made anew.
     [[nodiscard]] std::uint64_t texture_revision() const { return texture_revision_; }
-    /// To be called when the shadow maps are other images than before.
-    void forget_shadow_maps() { shadow_maps_known_ = false; }
+    /// To be called when the shadow maps are other images than before, or lighting wants other pipelines.
+    void forget_passes() { passes_known_ = false; }
     /// Goes up when cascades moved or were made anew: surfaces have to be voxelized again.
     [[nodiscard]] std::uint64_t placement_revision() const { return placement_revision_; }
     /// Edge of the finest voxels in metres.
@@ -78,7 +80,7 @@ private:
         graph::Executor surfaces, lights, emission, reflect, bounce;
     };
     [[nodiscard]] Result<void> check_size(const VoxelSettings& settings) const;
-    [[nodiscard]] Result<void> make_texture();
+    [[nodiscard]] Result<void> make_texture(VkExtent3D extent);
     [[nodiscard]] Result<void> make_buffers();
     [[nodiscard]] Result<void> show(graph::Executor& step, gpu::Commands& commands, gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> place(const GpuScene& scene, glm::vec3 eye);
@@ -91,7 +93,7 @@ private:
     VoxelSettings settings_;
     shading::VolumeData data_{};
     std::uint32_t record_capacity_ = 0, tile_capacity_ = 0;
-    bool remake_ = true, emits_ = false, shadow_maps_known_ = false;
+    bool remake_ = true, emits_ = false, passes_known_ = false;
     bool outdated_ = false;  // the texture shows surfaces as they were before they were voxelized anew
     std::uint64_t placement_revision_ = 0, texture_revision_ = 0, listed_revision_ = ~0ull;
     std::vector<std::unique_ptr<Cascade>> cascades_;

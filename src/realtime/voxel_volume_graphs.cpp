@@ -66,15 +66,16 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
     VolumeGraph surfaces = begin();
     for (std::size_t i = 0; i <= last; ++i) {
         passes::add_keep_shown(surfaces.graph, surfaces.cascades[i]);
-        if (auto done = passes::add_voxelize(surfaces.graph, pipelines_, source.inputs, cascades_[i]->voxelize,
-                                             surfaces.cascades[i].surfaces); !done)
+        const auto voxelize = settings_.raster ? passes::add_voxelize_raster : passes::add_voxelize;
+        if (auto done = voxelize(surfaces.graph, pipelines_, source.inputs, cascades_[i]->voxelize, surfaces.cascades[i].surfaces); !done)
             return done;
     }
     if (auto done = finish(steps_->surfaces, surfaces); !done) return done;
 
     VolumeGraph lights = begin();
     for (const auto& cascade : lights.cascades)
-        if (auto done = passes::add_direct_light(lights.graph, pipelines_, source.inputs, source.lighting, cascade, lights.shadow_maps); !done)
+        if (auto done = passes::add_direct_light(lights.graph, pipelines_, source.inputs, source.lighting, cascade, lights.shadow_maps,
+                                                 lights.faces); !done)
             return done;
     if (auto done = finish(steps_->lights, lights); !done) return done;
 
@@ -104,7 +105,7 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
         if (auto done = passes::add_gather(bounce.graph, pipelines_, source.inputs, inputs_, cascade, bounce.faces); !done) return done;
     if (auto done = add_volume(bounce, false); !done) return done;
     if (auto done = finish(steps_->bounce, bounce); !done) return done;
-    shadow_maps_known_ = true;
+    passes_known_ = true;
     return {};
 }
 

@@ -71,7 +71,7 @@ struct LightData {
     float cos_inner;
     float cos_outer;
     uint shadow;  // index of the first shadow view, or no_texture: the real-time engine's own
-    float padding0;
+    float cone_radius;  // as radius, of a light that stands in one point and casts its shadow by a cone: likewise
     float padding1;
 };
 

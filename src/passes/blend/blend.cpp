@@ -17,13 +17,13 @@ VkDeviceSize blend_buffer_bytes(std::uint32_t capacity) {
 
 Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene, const LightingInputs& lighting,
                        const gpu::Buffer& views, const DrawLists& lists, const Visibility& visibility,
-                       const ShadowMaps& shadow_maps, graph::BufferHandle fragments, graph::ImageHandle picture,
-                       VkExtent2D extent) {
+                       const ShadowMaps& shadow_maps, graph::ImageHandle volume, graph::BufferHandle fragments,
+                       graph::ImageHandle picture, VkExtent2D extent) {
     auto description = raster_description("blend lists", "passes/common/opaque.vert", "passes/blend/blend_lists.frag");
     description.depth_write = false;
     auto collect = pipelines.graphics(description);
     if (!collect) return tl::unexpected(collect.error());
-    auto compose = pipelines.compute("passes/blend/blend.comp");
+    auto compose = pipelines.compute("passes/blend/blend.comp", {{7, lighting.cone_shadows ? 1u : 0u}});
     if (!compose) return tl::unexpected(compose.error());
 
     const graph::BufferHandle heads =
@@ -66,6 +66,7 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
             pass.read_write(fragments, Usage::storage_read_write);
             pass.read(shadow_maps.depth, Usage::sampled);
             pass.read(shadow_maps.slope, Usage::sampled);
+            pass.read(volume, Usage::sampled);
             pass.read_write(picture, Usage::storage_read_write);
         },
         [&scene, &lighting, shadow_maps, heads, fragments, picture, extent, compose = *compose](PassContext& context) {
@@ -75,7 +76,10 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
                                                    {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
                                                    {11, *lighting.shading_tables},
+                                                   {22, *lighting.light_grid},
                                                    {16, *lighting.visible_lights},
+                                                   {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
+                                                   {21, *lighting.volume->data},
                                                    {12, context.buffer(fragments)},
                                                    {13, context.buffer(heads)},
                                                    {14, context.image(picture)}});

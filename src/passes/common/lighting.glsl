@@ -1,29 +1,40 @@
 // Light that arrives at a surface point from the scene's lights and the sky and leaves towards the viewer.
 #ifndef HELIODON_LIGHTING_GLSL
 #define HELIODON_LIGHTING_GLSL
-#include "passes/common/shadow_lookup.glsl"
+#include "passes/common/light_visibility.glsl"
 #include "passes/common/surface.glsl"
 #include "passes/common/hash.glsl"
 #include "passes/common/sky_lookup.glsl"
+#include "passes/light_grid/light_choice.glsl"
 #include "shading/environment.h"
 #include "shading/light.h"
 
 layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
 float shading_table(uint index) { return shading_tables[index]; }
 
+vec3 light_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, uint index, FrameData frame, uint pixel_seed) {
+    const LightData light = light_table[active_light_table[frame.light_first + index]];
+    const uint seed = pcg_hash(pixel_seed + index);
+    const LightSample arriving = light_sample(light, point.position, vec2(unit_interval(seed), unit_interval(pcg_hash(seed))));
+    if (arriving.value == vec3(0.0f)) return vec3(0.0f);
+    const vec3 wi = to_local(point.frame, arriving.direction);
+    const vec3 reflected = bsdf_evaluate_prepared(point.material.surface, lobes, wo, wi) *
+                           same_side(arriving.direction, point.geometric, wi.z) * arriving.value;
+    if (reflected == vec3(0.0f)) return vec3(0.0f);
+    return reflected * light_reaching(light, point.position, point.geometric, frame.shadow_filter);
+}
+
+const uint light_picks_a_sample = 16u;
+
 vec3 lights_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, FrameData frame, uint pixel_seed) {
     vec3 sum = vec3(0.0f);
-    for (uint i = 0u; i < frame.light_count; ++i) {
-        const LightData light = light_table[active_light_table[frame.light_first + i]];
-        const uint seed = pcg_hash(pixel_seed + i);
-        const LightSample arriving = light_sample(light, point.position, vec2(unit_interval(seed), unit_interval(pcg_hash(seed))));
-        if (arriving.value == vec3(0.0f)) continue;
-        const vec3 wi = to_local(point.frame, arriving.direction);
-        const vec3 reflected = bsdf_evaluate_prepared(point.material.surface, lobes, wo, wi) *
-                               same_side(arriving.direction, point.geometric, wi.z) * arriving.value;
-        if (reflected == vec3(0.0f)) continue;
-        sum += reflected * light_visibility(light, point.position, point.geometric, frame.shadow_filter);
+    if (frame.light_count <= most_lights_summed) {
+        for (uint i = 0u; i < frame.light_count; ++i) sum += light_reflected(point, lobes, wo, i, frame, pixel_seed);
+        return sum;
     }
+    LightPicks picks = light_picks(point.position, light_picks_a_sample, unit_interval(pcg_hash(~pixel_seed)));
+    LightPick pick;
+    while (next_light(picks, pick)) sum += pick.weight * light_reflected(point, lobes, wo, pick.light, frame, pixel_seed);
     return sum;
 }
 

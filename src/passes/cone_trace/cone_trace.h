@@ -5,13 +5,6 @@
 
 namespace heliodon::passes {
 
-/// The volume that cones are traced through; its owner keeps it at one address and up to date.
-struct VolumeInputs {
-    const gpu::Image* faces = nullptr;    ///< RGBA16F, as VolumeData says
-    const gpu::Buffer* data = nullptr;    ///< VolumeData
-    VkSampler trilinear = VK_NULL_HANDLE; ///< linear within a level, nearest level, edges clamped
-};
-
 /// Adds to `picture` the indirect light of what `visibility` shows; with `aov` what FrameData::aov asks for.
 [[nodiscard]] Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                           const LightingInputs& lighting, const VolumeInputs& volume,

@@ -24,6 +24,16 @@ float level_holding(vec3 position) {
     return level;
 }
 
+/// Where the cones of a surface start, in finest voxels: past the layers that the surface itself lies in. The middle of
+/// a voxel that a plane of unit normal n passes lies within S/2 of it, S = |nx| + |ny| + |nz|. What the voxel shows along
+/// axis a, linear interpolation spreads one voxel along the two other axes, S − |na| further; the faces show |na|/S of
+/// the plane's area each, so on average over them the plane reaches 3S/2 − 1/S voxels.
+vec3 cone_origin(vec3 position, vec3 geometric) {
+    const vec3 start = to_lattice(position);
+    const float total = abs(geometric.x) + abs(geometric.y) + abs(geometric.z);
+    return start + geometric * ((1.5f * total - 1.0f / total) * exp2(level_holding(start)));
+}
+
 /// Texture coordinates of a position in the lattice, on the first face of the cascade that has voxels of `edge`;
 /// linear interpolation stays within the face.
 vec3 face_coordinates(vec3 position, float edge, float level) {

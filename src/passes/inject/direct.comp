@@ -1,8 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The illuminance of one batch of lights, with their shadows, on every face of every voxel.
-#include "passes/common/shadow_lookup.glsl"
+#include "passes/common/light_visibility.glsl"
+#include "passes/common/hash.glsl"
 #include "passes/inject/record_work.glsl"
+#include "passes/light_grid/light_choice.glsl"
 #include "shading/environment.h"
 #include "shading/light.h"
 
@@ -19,7 +21,24 @@ vec3 illuminance_from(LightData light, VoxelFace face) {
         sum += arriving.value * max(dot(arriving.direction, face.normal), 0.0f);
     }
     if (sum == vec3(0.0f)) return sum;
-    return sum * (light_visibility(light, face.position, face.normal, shadow_filter_percentage_closer) / float(samples));
+    return sum * (light_reaching(light, face.position, face.normal, shadow_filter_percentage_closer) / float(samples));
+}
+
+const uint light_picks_a_face = 32u;
+
+/// Of very many lights each face picks some, always the same ones: cones see the mean of many faces.
+vec3 lights_illuminance(VoxelFace face, uint index) {
+    vec3 sum = vec3(0.0f);
+    if (push.light_count <= most_lights_summed) {
+        for (uint i = 0u; i < push.light_count; ++i)
+            sum += illuminance_from(light_table[active_light_table[push.light_first + i]], face);
+        return sum;
+    }
+    LightPicks picks = light_picks(face.position, light_picks_a_face, unit_interval(pcg_hash(index)));
+    LightPick pick;
+    while (next_light(picks, pick))
+        sum += pick.weight * illuminance_from(light_table[active_light_table[push.light_first + pick.light]], face);
+    return sum;
 }
 
 void main() {
@@ -27,9 +46,6 @@ void main() {
     if (index >= voxel_header.record_count * voxel_faces) return;
     const VoxelFace face = voxel_face(push.grid, index / voxel_faces, index % voxel_faces);
     vec3 sum = push.add != 0u ? illuminance[index].rgb : vec3(0.0f);
-    if (face.area > 0.0f && face.albedo != vec3(0.0f)) {
-        for (uint i = 0u; i < push.light_count; ++i)
-            sum += illuminance_from(light_table[active_light_table[push.light_first + i]], face);
-    }
+    if (face.area > 0.0f && face.albedo != vec3(0.0f)) sum += lights_illuminance(face, index);
     illuminance[index] = vec4(sum, 0.0f);
 }

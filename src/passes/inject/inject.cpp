@@ -81,8 +81,9 @@ Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, co
 }
 
 Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                              const LightingInputs& lighting, const InjectCascade& cascade, const ShadowMaps& shadow_maps) {
-    auto pipeline = pipelines.compute("passes/inject/direct.comp");
+                              const LightingInputs& lighting, const InjectCascade& cascade, const ShadowMaps& shadow_maps,
+                              graph::ImageHandle faces) {
+    auto pipeline = pipelines.compute("passes/inject/direct.comp", {{7, lighting.cone_shadows ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         "inject lights", PassKind::compute,
@@ -93,18 +94,22 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
             pass.read(cascade.surfaces.records, Usage::storage_read);
             pass.read(shadow_maps.depth, Usage::sampled);
             pass.read(shadow_maps.slope, Usage::sampled);
+            pass.read(faces, Usage::sampled);
             pass.read_write(cascade.illuminance, Usage::storage_read_write);
         },
         [&scene, &lighting, cascade, shadow_maps, direct = *pipeline](PassContext& context) {
             const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
             const auto bindings = select_bindings(*direct, scene,
                                                   {{9, *lighting.shadow_views},
+                                                   {22, *lighting.light_grid},
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
                                                    {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
                                                    {16, numbers},
                                                    {17, context.buffer(cascade.surfaces.cells)},
                                                    {18, context.buffer(cascade.surfaces.records)},
-                                                   {19, context.buffer(cascade.illuminance)}});
+                                                   {19, context.buffer(cascade.illuminance)},
+                                                   {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
+                                                   {21, *lighting.volume->data}});
             context.commands.dispatch_indirect(*direct, *cascade.constants, bindings, numbers, face_groups);
         });
     return {};

@@ -29,10 +29,11 @@ void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade);
 /// If the texture is outdated, empties what it shows of a cascade; `levels`: its coarse levels too.
 [[nodiscard]] Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
                                             graph::ImageHandle faces, bool levels);
-/// Illuminance of one batch of lights (light_first and light_count of the constants) by the resident shadow maps.
+/// Illuminance of one batch of lights (light_first and light_count of the constants) by the resident shadow maps,
+/// or by cones through the volume as it is.
 [[nodiscard]] Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                             const LightingInputs& lighting, const InjectCascade& cascade,
-                                            const ShadowMaps& shadow_maps);
+                                            const ShadowMaps& shadow_maps, graph::ImageHandle faces);
 /// Replaces `gathered` by what arrives from the volume and the sky.
 [[nodiscard]] Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                       const VolumeInputs& volume, const InjectCascade& cascade, graph::ImageHandle faces);

@@ -13,7 +13,7 @@ vec3 illuminance_from(LightData light, vec3 position, vec3 normal) {
     const LightSample arriving = light_sample(light, position, vec2(0.5f));
     const vec3 unshadowed = arriving.value * max(dot(arriving.direction, normal), 0.0f);
     if (unshadowed == vec3(0.0f)) return unshadowed;
-    return unshadowed * light_visibility(light, position, normal, shadow_filter_percentage_closer);
+    return unshadowed * light_reaching(light, position, normal, shadow_filter_percentage_closer);
 }
 
 void main() {

@@ -8,7 +8,7 @@ Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, 
                             const LightingInputs& lighting, const gpu::Image& shadow_depth,
                             const gpu::Image& shadow_slope, const gpu::Buffer& sensors, std::uint32_t count,
                             const SensorLights& lights) {
-    auto pipeline = pipelines.compute("passes/sensors/sensors.comp");
+    auto pipeline = pipelines.compute("passes/sensors/sensors.comp", {{7, lighting.cone_shadows ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     const shading::SensorConstants push{count, lights.first, lights.count, lights.sky ? 1u : 0u};
     const auto bindings = select_bindings(**pipeline, scene,
@@ -16,6 +16,9 @@ Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, 
                                            {10, gpu::Binding(shadow_depth, lighting.nearest)},
                                            {15, gpu::Binding(shadow_slope, lighting.nearest)},
                                            {11, *lighting.shading_tables},
+                                           {22, *lighting.light_grid},
+                                           {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
+                                           {21, *lighting.volume->data},
                                            {12, sensors}});
     commands.dispatch_threads(**pipeline, push, bindings, {count, 1, 1});
     return {};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "passes/common/scene_inputs.h"
+#include "passes/common/volume_inputs.h"
 #include "passes/shadow/shadow.h"
 #include "passes/visibility/visibility.h"
 
@@ -13,12 +14,16 @@ struct LightingInputs {
     const gpu::Buffer* shading_tables = nullptr;  ///< shading/tables.h
     VkSampler nearest = VK_NULL_HANDLE;
     const gpu::Buffer* visible_lights = nullptr;  ///< visible_lights.glsl: lights with an extent
+    const VolumeInputs* volume = nullptr;         ///< lights with a cone_radius cast their shadows through it
+    bool cone_shadows = false;                    ///< some light has one; pipelines are chosen by it
+    const gpu::Buffer* light_grid = nullptr;      ///< light_grid.h: for picking among very many lights
 };
 
 /// Lights the visibility buffer in compute: the batch's lights with their shadows, emission, sky. Returns the
 /// picture, RGBA32F radiance in cd/m², alpha = coverage; with `aov` what FrameData::aov asks for instead.
 [[nodiscard]] Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                                    const LightingInputs& lighting, const Visibility& visibility,
-                                                   const ShadowMaps& shadow_maps, VkExtent2D extent, bool aov);
+                                                   const ShadowMaps& shadow_maps, graph::ImageHandle volume, VkExtent2D extent,
+                                                   bool aov);
 
 }  // namespace heliodon::passes

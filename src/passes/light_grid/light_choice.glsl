@@ -1,0 +1,60 @@
+// Picks some of very many lights, each with a chance in proportion to what it may give the place (light_grid.comp), and
+// weighs it by the inverse of that chance: the mean is exact whatever the chances (Shirley, Wang & Zimmerman 1996,
+// "Monte Carlo techniques for direct lighting calculations").
+#ifndef HELIODON_LIGHT_CHOICE_GLSL
+#define HELIODON_LIGHT_CHOICE_GLSL
+#include "passes/light_grid/light_grid_shared.h"
+
+layout(set = 0, binding = 22, std430) readonly buffer LightGrid { LightGridHeader light_grid; uint light_sums[]; };
+
+/// Picks follow one another at even steps from a random start (systematic sampling): a light with a large share is
+/// picked about as often as it deserves.
+struct LightPicks {
+    uint base;    // of the cell's sums
+    uint total;
+    uint count;   // picks
+    uint done;
+    float start;  // 0 … 1
+};
+struct LightPick {
+    uint light;    // in the batch
+    float weight;  // of its light
+};
+
+LightPicks light_picks(vec3 position, uint count, float random) {
+    const ivec3 cell = clamp(ivec3(floor((position - light_grid.origin) / light_grid.cell_m)), ivec3(0), ivec3(light_grid.edge - 1u));
+    LightPicks picks;
+    picks.base = (uint(cell.x) + light_grid.edge * (uint(cell.y) + light_grid.edge * uint(cell.z))) * light_grid.light_count;
+    picks.total = light_sums[picks.base + light_grid.light_count - 1u];
+    picks.count = count;
+    picks.done = picks.total == 0u ? count : 0u;
+    picks.start = random;
+    return picks;
+}
+
+uint pick_target(LightPicks picks, uint pick) {
+    return min(uint((float(pick) + picks.start) / float(picks.count) * float(picks.total)), picks.total - 1u);
+}
+
+/// The next light, with all picks that fall on it; false when there is none.
+bool next_light(inout LightPicks picks, out LightPick pick) {
+    if (picks.done >= picks.count) return false;
+    const uint target = pick_target(picks, picks.done);
+    uint low = 0u;
+    uint high = light_grid.light_count - 1u;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        if (light_sums[picks.base + middle] > target) high = middle;
+        else low = middle + 1u;
+    }
+    const uint upper = light_sums[picks.base + low];
+    const uint lower = low > 0u ? light_sums[picks.base + low - 1u] : 0u;
+    uint uses = 1u;
+    while (picks.done + uses < picks.count && pick_target(picks, picks.done + uses) < upper) ++uses;
+    picks.done += uses;
+    pick.light = low;
+    pick.weight = float(uses) * float(picks.total) / (float(picks.count) * float(upper - lower));
+    return true;
+}
+
+#endif
