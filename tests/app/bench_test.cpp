@@ -89,7 +89,7 @@ TEST_F(Bench, TakesTheTestsThatTheSceneAndTheUserAskFor) {
 }
 
 TEST_F(Bench, CostHasARowForEachAmountOfWork) {
-    const Ended ended = run({"bench", "cost", "--series", "pixels", "--size", "32x24", "--frames", "1", "--json"});
+    const Ended ended = run({"bench", "cost", "--series", "pixels", "--size", "32x24", "--voxels", "32", "--frames", "1", "--json"});
     ASSERT_EQ(ended.code, 0) << ended.error;
     const json series = json::parse(ended.output)["series"];
     ASSERT_EQ(series.size(), 1u);

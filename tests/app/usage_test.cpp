@@ -76,6 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongUsage{"BenchFramesZero", {"bench", "natus", "--frames", "0"}, "--frames"},
                     WrongUsage{"BenchTimeNegative", {"bench", "natus", "--path-seconds", "-1"}, "--path-seconds"},
                     WrongUsage{"BenchSeries", {"bench", "cost", "--series", "lights,dust"}, "\"dust\""},
+                    WrongUsage{"BenchGridsOfCost", {"bench", "cost", "--voxels", "64,128"}, "--voxels"},
                     WrongUsage{"BenchSceneOfCost", {"bench", "cost", "--scene", "s.heliodon.json"}, "--scene"},
                     WrongUsage{"BenchSize", {"bench", "natus", "--size", "64"}, "\"64\""},
                     WrongUsage{"BenchOverridesOfTheBuiltInScene", {"bench", "natus", "--set", "render.bounces=1"}, "--scene"},

@@ -13,6 +13,7 @@ namespace {
 struct BenchOptions {
     std::string name;
     NatusOptions natus;
+    std::vector<int> voxels;  ///< empty: each benchmark's own
     std::vector<std::string> series{std::begin(cost_series), std::end(cost_series)};
     bool json = false;
 };
@@ -53,16 +54,21 @@ std::vector<std::string> read_series(const std::string& text) {
 Result<void> bench_natus(const BenchOptions& options) {
     if (options.natus.scene.path.empty() && !options.natus.scene.overrides.empty())
         throw CLI::ValidationError("--set", "expected with --scene: the built-in scene is no file");
-    const auto report = run_natus(options.natus);
+    NatusOptions natus = options.natus;
+    if (!options.voxels.empty()) natus.voxels = options.voxels;
+    const auto report = run_natus(natus);
     if (!report) return tl::unexpected(report.error());
-    return print(options.json ? as_json(*report, options.natus) : as_text(*report, options.natus));
+    return print(options.json ? as_json(*report, natus) : as_text(*report, natus));
 }
 
 Result<void> bench_cost(const BenchOptions& options) {
-    if (!options.natus.scene.path.empty())
-        throw CLI::ValidationError("--scene", "expected with natus: the cost is measured on built-in scenes");
+    const SceneArgument& scene = options.natus.scene;
+    if (!scene.path.empty() || !scene.overrides.empty())
+        throw CLI::ValidationError(scene.path.empty() ? "--set" : "--scene", "expected with natus: the cost is measured on built-in scenes");
+    if (options.voxels.size() > 1) throw CLI::ValidationError("--voxels", "expected one grid for the cost");
+    const int voxels = options.voxels.empty() ? CostReport{}.voxels : options.voxels.front();
     const TimingOptions& timing = options.natus.timing;
-    const auto report = run_cost(timing, options.series);
+    const auto report = run_cost(timing, voxels, options.series);
     if (!report) return tl::unexpected(report.error());
     return print(options.json ? as_json(*report, timing) : as_text(*report, timing));
 }
@@ -86,8 +92,8 @@ Action declare_bench(CLI::App& command) {
     command.add_option_function<std::string>(
         "--size", [&natus](Text text) { natus.timing.size = read_size(text); }, "WIDTHxHEIGHT; default 1024x768");
     command.add_option_function<std::string>(
-        "--voxels", [&natus](Text text) { natus.voxels = read_grids(text); },
-        "natus: grids to measure, voxels an edge; default 256,128,64");
+        "--voxels", [options = options.get()](Text text) { options->voxels = read_grids(text); },
+        "natus: grids to measure, voxels an edge; default 256,128,64; cost: one grid; default 128");
     command.add_option_function<std::string>(
         "--tests", [&natus](Text text) { natus.tests = read_tests(text); },
         "natus: which of the tests; default 1,2,3,4,5. The path tracer is compared with test 4");

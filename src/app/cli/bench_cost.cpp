@@ -15,16 +15,16 @@ using nlohmann::ordered_json;
 
 /// One frame to time.
 struct Load {
-    int voxels = 128;
+    int voxels = 0;
     Size size;
-    int copies = 10;  // of 45 thousand triangles
+    int copies = 1;  // of 45 thousand triangles
     int lights = 1;
 };
 
-std::vector<Load> loads_of(const std::string& name, Size size) {
+std::vector<Load> loads_of(const std::string& name, Size size, int edge) {
     std::vector<Load> loads;
     const auto add = [&](auto change) {
-        Load load{.size = size};
+        Load load{.voxels = edge, .size = size};
         change(load);
         loads.push_back(load);
     };
@@ -67,13 +67,14 @@ double growth(const CostSeries::Row& before, const CostSeries::Row& row) {
 
 }  // namespace
 
-Result<CostReport> run_cost(const TimingOptions& options, const std::vector<std::string>& names) {
+Result<CostReport> run_cost(const TimingOptions& options, int voxels, const std::vector<std::string>& names) {
     CostReport report;
+    report.voxels = voxels;
     for (const std::string& name : names) {
         CostSeries series{name, {}};
         ProgressBar bar("bench " + name);
         const Progress progress = bar.callback();
-        const std::vector<Load> loads = loads_of(name, options.size);
+        const std::vector<Load> loads = loads_of(name, options.size, voxels);
         for (const Load& load : loads) {
             if (!progress(static_cast<double>(series.rows.size()) / loads.size())) return fail("", "interrupted");
             const auto row = time(name, load, options, report.device);
@@ -86,8 +87,8 @@ Result<CostReport> run_cost(const TimingOptions& options, const std::vector<std:
 }
 
 std::string as_text(const CostReport& report, const TimingOptions& options) {
-    std::string text = fmt::format("cost: {}, {}x{}, milliseconds a frame on the GPU, median of {} frames\n", report.device,
-                                   options.size.width, options.size.height, options.frames);
+    std::string text = fmt::format("cost: {}, {}x{}, {}³ voxels, milliseconds a frame on the GPU, median of {} frames\n", report.device,
+                                   options.size.width, options.size.height, report.voxels, options.frames);
     for (const CostSeries& series : report.series) {
         text += fmt::format("\n{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>14}\n", series.name, "frame", "shadow map",
                             "voxelize", "filter", "cone trace", "rest", "time / work");
@@ -121,6 +122,7 @@ std::string as_json(const CostReport& report, const TimingOptions& options) {
                               {"device", report.device},
                               {"width", options.size.width},
                               {"height", options.size.height},
+                              {"voxels", report.voxels},
                               {"frames_timed", options.frames},
                               {"series", std::move(series)}};
     return all.dump(2) + "\n";
