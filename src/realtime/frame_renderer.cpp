@@ -184,6 +184,7 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
     if (lighting_.cone_shadows != has_cone_shadows_) voxels_.forget_passes();
     lighting_.cone_shadows = has_cone_shadows_;
     wanted_.cone_traced = sample.cone_traced;
+    wanted_.half_resolution = sample.cone_traced && settings_.vct.half_resolution;
     wanted_.volume = key_.volume;
     if (!(wanted_ == key_)) {
         if (auto done = device_.wait_idle(); !done) return done;
@@ -282,7 +283,7 @@ Result<void> FrameRenderer::build_frame_graph() {
     if (!picture) return tl::unexpected(picture.error());
     if (wanted_.cone_traced) {
         if (auto done = passes::add_cone_trace(graph, pipelines_, inputs_, lighting_, voxels_.inputs(), volume, *visibility,
-                                               *picture, extent, wanted_.aov); !done)
+                                               *picture, extent, {wanted_.aov, wanted_.half_resolution}); !done)
             return done;
     }
     graph::BufferHandle fragments;

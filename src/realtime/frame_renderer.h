@@ -92,7 +92,7 @@ private:
     /// What the graphs depend on; they are rebuilt when it changes.
     struct GraphKey {
         int width = 0, height = 0;
-        bool display = false, blended = false, aov = false, cone_traced = false, cone_shadows = false;
+        bool display = false, blended = false, aov = false, cone_traced = false, cone_shadows = false, half_resolution = false;
         std::uint32_t instance_capacity = 0, shadow_layers = 0, shadow_views = 0;
         int shadow_size = 0;
         std::uint32_t fragment_capacity = 0;

@@ -50,13 +50,16 @@ Cone lobe_cone(uint index, uint diffuse_cones, ConeLobes albedo, BsdfLobes lobes
     return cone;
 }
 
-IndirectLight indirect_light(SurfacePoint point, vec2 shift) {
+/// `known`: what diffuse cones bring, where that is known already: irradiance / π, and w ≥ 0 the openness.
+IndirectLight indirect_light(SurfacePoint point, vec2 shift, vec4 known) {
     IndirectLight result = IndirectLight(vec3(0.0f), 1.0f);
     const vec3 wo = to_local(point.frame, point.wo);
     if (point.dark || wo.z <= 0.0f) return result;
     const BsdfLobes lobes = bsdf_prepare(point.material.surface, wo);
     const ConeLobes albedo = cone_lobes(point.material.surface, lobes);
-    const uint diffuse_cones = albedo.diffuse != vec3(0.0f) ? volume.cone_sets * cones_per_set : 0u;
+    const bool traced = known.w < 0.0f && albedo.diffuse != vec3(0.0f);
+    const uint diffuse_cones = traced ? volume.cone_sets * cones_per_set : 0u;
+    if (known.w >= 0.0f) result = IndirectLight(albedo.diffuse * known.rgb, known.w);
     float open_sum = 0.0f;
     for (uint i = 0u; i < diffuse_cones + 3u; ++i) {
         vec3 share;

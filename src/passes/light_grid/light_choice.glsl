@@ -10,7 +10,7 @@ layout(set = 0, binding = 22, std430) readonly buffer LightGrid { LightGridHeade
 /// Picks follow one another at even steps from a random start (systematic sampling): a light with a large share is
 /// picked about as often as it deserves.
 struct LightPicks {
-    uint base;    // of the cell's sums
+    uint cell;
     uint total;
     uint count;   // picks
     uint done;
@@ -21,11 +21,13 @@ struct LightPick {
     float weight;  // of its light
 };
 
+uint light_sum(uint light, uint cell) { return light_sums[light * light_grid.edge * light_grid.edge * light_grid.edge + cell]; }
+
 LightPicks light_picks(vec3 position, uint count, float random) {
     const ivec3 cell = clamp(ivec3(floor((position - light_grid.origin) / light_grid.cell_m)), ivec3(0), ivec3(light_grid.edge - 1u));
     LightPicks picks;
-    picks.base = (uint(cell.x) + light_grid.edge * (uint(cell.y) + light_grid.edge * uint(cell.z))) * light_grid.light_count;
-    picks.total = light_sums[picks.base + light_grid.light_count - 1u];
+    picks.cell = uint(cell.x) + light_grid.edge * (uint(cell.y) + light_grid.edge * uint(cell.z));
+    picks.total = light_sum(light_grid.light_count - 1u, picks.cell);
     picks.count = count;
     picks.done = picks.total == 0u ? count : 0u;
     picks.start = random;
@@ -44,11 +46,11 @@ bool next_light(inout LightPicks picks, out LightPick pick) {
     uint high = light_grid.light_count - 1u;
     while (low < high) {
         const uint middle = (low + high) / 2u;
-        if (light_sums[picks.base + middle] > target) high = middle;
+        if (light_sum(middle, picks.cell) > target) high = middle;
         else low = middle + 1u;
     }
-    const uint upper = light_sums[picks.base + low];
-    const uint lower = low > 0u ? light_sums[picks.base + low - 1u] : 0u;
+    const uint upper = light_sum(low, picks.cell);
+    const uint lower = low > 0u ? light_sum(low - 1u, picks.cell) : 0u;
     uint uses = 1u;
     while (picks.done + uses < picks.count && pick_target(picks, picks.done + uses) < upper) ++uses;
     picks.done += uses;

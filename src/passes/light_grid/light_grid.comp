@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One workgroup a cell: running sums of what each light may give surfaces in the cell.
+// One invocation a cell: running sums of what each light may give surfaces in the cell.
 #include "core/units.h"
 #include "passes/common/scene_tables.glsl"
 #include "passes/light_grid/light_grid_shared.h"
@@ -8,10 +8,8 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 22, std430) buffer LightGrid { LightGridHeader header; uint sums[]; };
-shared float part_weights[gl_WorkGroupSize.x];
-shared uint part_sums[gl_WorkGroupSize.x];
 
-// All sums stay below 2²⁴, which floats count exactly; integers add up alike in any order.
+// All sums stay below 2²⁴, which floats count exactly.
 const float whole = 8388608.0f;
 
 /// The cosine of the smallest angle between `axis` and directions from the light into a sphere at `offset` from it.
@@ -42,40 +40,23 @@ float weight_of(LightData light, vec3 center, float radius) {
 }
 
 void main() {
-    const uvec3 cell = gl_WorkGroupID;
-    const uint base = (cell.x + header.edge * (cell.y + header.edge * cell.z)) * header.light_count;
+    const uint index = gl_GlobalInvocationID.x;
+    const uint cells = header.edge * header.edge * header.edge;
+    if (index >= cells) return;
+    const uvec3 cell = uvec3(index, index / header.edge, index / (header.edge * header.edge)) % header.edge;
     const vec3 center = header.origin + (vec3(cell) + 0.5f) * header.cell_m;
     const float radius = 0.5f * length(header.cell_m);
-    const uint thread = gl_LocalInvocationIndex;
-    const uint share = (header.light_count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
-    const uint begin = min(thread * share, header.light_count);
-    const uint end = min(begin + share, header.light_count);
-
-    float weight = 0.0f;
-    for (uint i = begin; i < end; ++i) {
-        const float own = weight_of(light_table[active_light_table[header.light_first + i]], center, radius);
-        sums[base + i] = floatBitsToUint(own);
-        weight += own;
-    }
-    part_weights[thread] = weight;
-    barrier();
     float total = 0.0f;
-    for (uint i = 0u; i < gl_WorkGroupSize.x; ++i) total += part_weights[i];
-
+    for (uint i = 0u; i < header.light_count; ++i) {
+        const float weight = weight_of(light_table[active_light_table[header.light_first + i]], center, radius);
+        sums[i * cells + index] = floatBitsToUint(weight);
+        total += weight;
+    }
     // What may give light at all can be picked: it weighs 1 at least.
     uint sum = 0u;
-    for (uint i = begin; i < end; ++i) {
-        const float own = uintBitsToFloat(sums[base + i]);
-        const uint units = own > 0.0f ? 1u + uint(own / total * whole) : 0u;
-        sums[base + i] = units;
-        sum += units;
-    }
-    part_sums[thread] = sum;
-    barrier();
-    uint running = 0u;
-    for (uint i = 0u; i < thread; ++i) running += part_sums[i];
-    for (uint i = begin; i < end; ++i) {
-        running += sums[base + i];
-        sums[base + i] = running;
+    for (uint i = 0u; i < header.light_count; ++i) {
+        const float weight = uintBitsToFloat(sums[i * cells + index]);
+        if (weight > 0.0f) sum += 1u + uint(weight / total * whole);
+        sums[i * cells + index] = sum;
     }
 }

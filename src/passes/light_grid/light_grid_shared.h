@@ -7,8 +7,8 @@ SHADING_BEGIN
 /// So many lights are summed one by one; of more, some are picked.
 SHADING_CONST uint most_lights_summed = 32u;
 
-/// First words of the grid's buffer. sums[cell][light] follow, cell = x + edge (y + edge z): lights of the batch up to
-/// and with this one are picked with a chance of sum / (the cell's last sum).
+/// First words of the grid's buffer. sums[light][cell] follow, cell = x + edge (y + edge z): lights of the batch up to
+/// and with this one are picked with a chance of sum / (the last light's sum).
 struct LightGridHeader {
     vec3 origin;
     uint edge;         // cells
