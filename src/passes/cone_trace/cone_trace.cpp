@@ -49,7 +49,7 @@ Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, cons
     auto pipeline = pipelines.compute("passes/cone_trace/cone_trace.comp",
                                       {{0, options.aov ? 1u : 0u}, {1, options.half_resolution ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
-    HalfDiffuse diffuse;
+    HalfDiffuse diffuse{visibility.depth, visibility.depth};  // read by nothing, unless by the other half
     if (options.half_resolution) {
         auto added = add_half_diffuse(graph, pipelines, scene, lighting, volume, volume_faces, visibility, extent);
         if (!added) return tl::unexpected(added.error());
@@ -60,22 +60,19 @@ Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, cons
         [&](graph::PassBuilder& pass) {
             pass.read(visibility.ids, graph::Usage::sampled);
             pass.read(volume_faces, graph::Usage::sampled);
-            if (diffuse.light) pass.read(diffuse.light, graph::Usage::sampled);
-            if (diffuse.places) pass.read(diffuse.places, graph::Usage::sampled);
+            pass.read(diffuse.light, graph::Usage::sampled);
+            if (options.half_resolution) pass.read(diffuse.places, graph::Usage::sampled);
             pass.read_write(picture, graph::Usage::storage_read_write);
         },
         [&scene, &lighting, &volume, volume_faces, visibility, picture, diffuse, extent, trace = *pipeline](graph::PassContext& context) {
             const gpu::Binding ids(context.image(visibility.ids), lighting.nearest);
-            // Without half resolution nothing reads these two.
-            const gpu::Binding light = diffuse.light ? gpu::Binding(context.image(diffuse.light), lighting.nearest) : ids;
-            const gpu::Binding places = diffuse.places ? gpu::Binding(context.image(diffuse.places), lighting.nearest) : ids;
             const auto bindings = select_bindings(*trace, scene,
                                                   {{8, *lighting.frame},
                                                    {11, *lighting.shading_tables},
                                                    {12, ids},
                                                    {13, context.image(picture)},
-                                                   {14, light},
-                                                   {15, places},
+                                                   {14, gpu::Binding(context.image(diffuse.light), lighting.nearest)},
+                                                   {15, gpu::Binding(context.image(diffuse.places), lighting.nearest)},
                                                    {20, gpu::Binding(context.image(volume_faces), volume.trilinear)},
                                                    {21, *volume.data}});
             context.commands.dispatch_threads(*trace, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
