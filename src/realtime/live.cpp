@@ -23,12 +23,21 @@ constexpr int samples_per_shadow_grid = 4;
 // How often a scene with blended surfaces is asked whether all of them found room (it waits for the GPU).
 constexpr int frames_between_overflow_checks = 16;
 
+/// Whether the scene's settings may have changed since the journal stood at `since`.
+bool settings_changed(const Scene& scene, std::uint64_t since) {
+    bool changed = false;
+    const bool reaches_back = scene.changes_since(
+        since, [&](const Change& change) { changed = changed || change.table == Change::Table::settings; });
+    return changed || !reaches_back;
+}
+
 }  // namespace
 
 struct LiveRenderer::State {
     std::unique_ptr<FrameRenderer> frames;
     shading::FrameData view{};  // of the accumulated picture, without jitter
     std::uint64_t revision = ~0ull;
+    std::uint64_t journal = 0;  // of the scene, up to where its settings are known
     bool environment = true;
     int samples = 0;
     int frame_number = 0;
@@ -57,10 +66,12 @@ Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camer
     if (auto done = frames.resize(width, height, true); !done) return tl::unexpected(done.error());
     const shading::FrameData view = realtime::camera_frame(camera, frames.scene().bounds(), width, height, glm::vec2(0));
     const bool same = frames.scene().revision() == state.revision && environment == state.environment &&
-                      std::memcmp(&view, &state.view, sizeof(view)) == 0;
+                      !frames.shadows_lag() &&
+                      !settings_changed(scene, state.journal) && std::memcmp(&view, &state.view, sizeof(view)) == 0;
     if (!same) state.samples = 0;
     state.view = view;
     state.revision = frames.scene().revision();
+    state.journal = scene.journal_end();
     state.environment = environment;
 
     if (state.samples < most_samples) {

@@ -67,7 +67,7 @@ constexpr int width = 700, height = 560;
 struct Point {
     int x, y;
 };
-constexpr Point red_intensity{70, 296}, white_material{58, 379}, white_green{125, 399}, exposure{105, 210};
+constexpr Point red_intensity{70, 296}, white_material{58, 379}, white_green{125, 399}, exposure{105, 210}, cones{29, 422};
 
 /// A desktop of its own (Xvfb) with the program's window, a person's hand (xdotool) and eye (a screenshot).
 class ViewerTest : public testing::Test {
@@ -192,6 +192,18 @@ TEST_F(ViewerTest, orbits_edits_lights_materials_and_exposure_resizes_and_closes
     hand("search --name Heliodon windowsize 640 480");
     EXPECT_TRUE(eventually([&] { return look().rgb(width - 5, height - 5) == glm::vec3(0); })) << "the window shrinks";
 
+    hand("key Escape");
+    EXPECT_EQ(viewer_->wait_for_exit(20s), 0) << log();
+    EXPECT_EQ(log(), "") << "no validation message, no warning";
+}
+
+TEST_F(ViewerTest, switches_voxel_cone_tracing_on_and_off_again) {
+    const Image direct = look();
+    const auto toggle = [] { return "mousemove " + std::to_string(cones.x) + " " + std::to_string(cones.y) + " sleep 0.3 click 1"; };
+    hand(toggle());
+    EXPECT_TRUE(eventually([&] { return brightness(look()).y > 1.01f * brightness(direct).y; })) << "the post lights the floor: " << log();
+    hand(toggle());
+    EXPECT_TRUE(eventually([&] { return std::abs(brightness(look()).y - brightness(direct).y) < 0.002f; })) << log();
     hand("key Escape");
     EXPECT_EQ(viewer_->wait_for_exit(20s), 0) << log();
     EXPECT_EQ(log(), "") << "no validation message, no warning";

@@ -63,6 +63,12 @@ TEST_F(Live, FramesAccumulateWhileNothingChangesAndStartAnewWhenSomethingDoes) {
     camera.position.x += 0.1f;
     EXPECT_EQ(frame(scene, camera), 1);
     EXPECT_EQ(frame(scene, camera, 8), 1);  // another size
+    EXPECT_EQ(frame(scene, camera, 8), 2);
+    scene.set_render_settings({.gi = "vct", .voxels = 32});
+    EXPECT_EQ(frame(scene, camera, 8), 1);
+    EXPECT_EQ(frame(scene, camera, 8), 2);
+    scene.set_render_settings({});
+    EXPECT_EQ(frame(scene, camera, 8), 1);
     ASSERT_TRUE(scene.set_material(white, lambert(glm::vec3(0))));
     EXPECT_EQ(frame(scene, camera, 8), 1);
     EXPECT_EQ(value(1, 1, 8), 0);

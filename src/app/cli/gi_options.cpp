@@ -28,9 +28,12 @@ void apply_gi_options(const GiOptions& options, const SceneArgument& argument, S
                                                      settings.gi)}});
         settings.gi = "none";
     }
-    if (options.voxels != 0 && settings.gi == "none")
-        report_warnings({{"--voxels", "has no effect without global illumination (see --gi)"}});
     scene.set_render_settings(std::move(settings));
+}
+
+void warn_without_effect(const GiOptions& options, const Scene& scene) {
+    if (options.voxels != 0 && scene.render_settings().gi == "none")
+        report_warnings({{"--voxels", "has no effect without global illumination (see --gi)"}});
 }
 
 }  // namespace heliodon::cli

@@ -17,7 +17,10 @@ struct GiOptions {
 void add_gi_options(CLI::App& command, GiOptions& options);
 
 /// Edits the scene's settings by the options. A kind of global illumination that this version lacks becomes "none",
-/// and what has no effect is said, on standard error.
+/// which is said on standard error.
 void apply_gi_options(const GiOptions& options, const SceneArgument& argument, Scene& scene);
+
+/// Says so where the options have no effect on a scene that stays as it is.
+void warn_without_effect(const GiOptions& options, const Scene& scene);
 
 }  // namespace heliodon::cli

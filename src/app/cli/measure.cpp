@@ -43,6 +43,7 @@ Result<Readings> measure_with_paths(const Scene& scene, const MeasureOptions& op
 
 Result<Readings> measure_in_real_time(Scene& scene, const MeasureOptions& options) {
     apply_gi_options(options.gi, options.scene, scene);
+    warn_without_effect(options.gi, scene);
     auto renderer = RealtimeRenderer::create(options.device);
     if (!renderer) return tl::unexpected(renderer.error());
     if (auto updated = renderer->update(scene); !updated) return tl::unexpected(updated.error());

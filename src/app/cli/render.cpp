@@ -203,7 +203,10 @@ Result<void> render(const RenderOptions& options) {
 
     auto scene = load(options.scene);
     if (!scene) return tl::unexpected(scene.error());
-    if (options.engine == Engine::realtime) apply_gi_options(options.gi, options.scene, *scene);
+    if (options.engine == Engine::realtime) {
+        apply_gi_options(options.gi, options.scene, *scene);
+        warn_without_effect(options.gi, *scene);
+    }
     check_aovs(options, *scene);
     auto renderer = create_renderer(options);
     if (!renderer) return tl::unexpected(renderer.error());
