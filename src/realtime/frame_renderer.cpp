@@ -121,11 +121,16 @@ Result<void> FrameRenderer::plan_lights() {
             light.cone_radius = radius;
             has_cone_shadows_ = true;
         }
-    plan_ = plan_shadows(lights_, gpu_scene_.bounds(),
-                         shadow_budget(device_, shadow_map_size_, gpu_scene_.instance_count()));
+    ShadowPlan plan = plan_shadows(lights_, gpu_scene_.bounds(),
+                                   shadow_budget(device_, shadow_map_size_, gpu_scene_.instance_count()));
+    // Maps that are rendered in turns stay where they are while the lights are the same ones.
+    if (!refreshes_in_turns() || planned_size_ != shadow_map_size_ || !same_views(plan, plan_)) {
+        plan_ = std::move(plan);
+        resident_shadows_ = {};
+    }
+    planned_size_ = shadow_map_size_;
     planned_lights_ = gpu_scene_.light_revision();
     planned_instances_ = instance_capacity(gpu_scene_.instance_count());
-    resident_shadows_ = {};
     has_area_lights_ = std::any_of(plan_.active_lights.begin(), plan_.active_lights.end(),
                                    [&](std::uint32_t light) { return lights_[light].radius > 0; });
     if (auto done = upload_visible_lights(); !done) return done;
@@ -307,52 +312,6 @@ Result<void> FrameRenderer::build_frame_graph() {
     frame_executor_->bind(volume, voxels_.faces());
     if (fragments) frame_executor_->bind(fragments, fragments_);
     if (display) frame_executor_->bind(display, display_);
-    return {};
-}
-
-Result<void> FrameRenderer::place_area_lights(const FrameSample& sample) {
-    placed_lights_ = lights_;
-    if (!has_area_lights_) return {};
-    for (const std::uint32_t index : plan_.active_lights) {
-        shading::LightData& light = placed_lights_[index];
-        if (light.radius <= 0) continue;
-        // Every light goes through its points in an order of its own.
-        light = sample.jitter_shadows ? point_of_area_light(light, sample_position(sample.shadow_index, 0, sample.seed + index + 1))
-                                      : center_of_area_light(light);
-        if (auto done = gpu_scene_.stand_in_for_light(index, light); !done) return done;
-    }
-    return {};
-}
-
-Result<void> FrameRenderer::record_shadows(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
-                                           gpu::Timestamps* timestamps) {
-    const ShadowKey wanted{gpu_scene_.revision(), batch, sample.shadow_index, sample.jitter_shadows};
-    if (wanted == resident_shadows_ && (!sample.force_shadows || forced_shadows_)) return {};
-    glm::vec2 jitter(0);
-    if (sample.jitter_shadows) jitter = sample_position(sample.shadow_index, 0, sample.seed) - 0.5f;
-    if (auto done = place_area_lights(sample); !done) return done;
-    if (auto done = record_light_grid(commands, sample, batch, timestamps); !done) return done;
-    const auto views = shadow_views(plan_, plan_.batches[batch], placed_lights_, gpu_scene_.bounds(), jitter);
-    std::vector<shading::ViewData> cull_views;
-    shadow_inputs_.draws.clear();
-    for (const shading::ShadowViewData& view : views) {
-        const auto index = static_cast<std::uint32_t>(cull_views.size());
-        cull_views.push_back({view.world_to_clip});
-        shadow_inputs_.draws.push_back({index, view.layer, {{static_cast<int>(view.corner_x), static_cast<int>(view.corner_y)},
-                                                            {view.size, view.size}}});
-    }
-    std::stable_sort(shadow_inputs_.draws.begin(), shadow_inputs_.draws.end(),
-                     [](const passes::ShadowDraw& a, const passes::ShadowDraw& b) { return a.layer < b.layer; });
-    shadow_inputs_.view_count = static_cast<std::uint32_t>(views.size());
-    shadow_inputs_.random_seed = sample.shadow_index + sample.seed;
-    if (!views.empty()) {
-        if (auto done = device_.upload<shading::ShadowViewData>(shadow_views_, views); !done) return done;
-        if (auto done = device_.upload<shading::ViewData>(shadow_cull_views_, cull_views); !done) return done;
-    }
-    // Also without views: the graph brings the image into the layout that shading expects.
-    if (auto done = shadow_executor_->execute(commands, timestamps); !done) return done;
-    resident_shadows_ = wanted;
-    forced_shadows_ = sample.force_shadows;
     return {};
 }
 

@@ -4,6 +4,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,10 @@ public:
     [[nodiscard]] Result<void> render(const Camera& camera, const FrameSample& sample, PassTimes* times = nullptr);
     /// Times of a sample rendered a little earlier; never waits.
     [[nodiscard]] PassTimes latest_times();
+    /// Whether the shadow maps are so many that a frame renders a part of them: those of a moving scene lag behind.
+    [[nodiscard]] bool refreshes_in_turns() const;
+    /// Whether some shadow maps still show an older scene.
+    [[nodiscard]] bool shadows_lag() const { return stale_views_ > 0; }
     /// The accumulated sum as RGBA floats; waits.
     [[nodiscard]] Result<std::vector<float>> read_sum();
     /// Illuminance in lux (RGB) on planes: light from the lights with shadows and from the open sky, or, cone traced,
@@ -123,7 +128,10 @@ private:
     [[nodiscard]] Result<void> upload_visible_lights();
     [[nodiscard]] Result<void> record_sensor_batch(const gpu::Buffer& sensors, std::uint32_t count, const FrameSample& sample,
                                                    std::size_t batch, const passes::SensorLights& lights);
-    [[nodiscard]] Result<void> place_area_lights(const FrameSample& sample);
+    /// Which views of a batch are rendered now.
+    [[nodiscard]] std::span<const ShadowPlan::View> views_due(const FrameSample& sample, const ShadowBatch& batch,
+                                                              const ShadowKey& wanted);
+    [[nodiscard]] Result<void> place_area_lights(const FrameSample& sample, std::span<const ShadowPlan::View> views);
     [[nodiscard]] Result<void> record_light_grid(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
                                                  gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> prepare(const Camera& camera, const FrameSample& sample);
@@ -171,7 +179,8 @@ private:
     ShadowKey resident_shadows_;
     std::pair<std::uint64_t, std::size_t> light_grid_key_{~0ull, 0};  // scene revision, batch
     bool forced_shadows_ = false;  // in this frame, already
-    int shadow_map_size_ = 2048;
+    int shadow_map_size_ = 2048, planned_size_ = 0;
+    std::uint32_t next_view_ = 0, stale_views_ = 0;  // in turns: whose turn it is, and how many show an older scene
 
     GraphKey key_, wanted_;
     passes::SceneInputs inputs_;

@@ -1,8 +1,89 @@
-// What the frame renderer does for scenes of very many lights.
+// Shadow maps and what else the frame renderer prepares for lights.
+#include <algorithm>
+
 #include "passes/light_grid/light_grid.h"
+#include "realtime/area_light.h"
+#include "realtime/camera_frame.h"
 #include "realtime/frame_renderer.h"
 
 namespace heliodon::realtime {
+namespace {
+
+// Shadow maps that a frame renders: those of 64 point lights. The maps of more lights take turns.
+constexpr std::uint32_t views_a_turn = 384;
+
+}  // namespace
+
+bool FrameRenderer::refreshes_in_turns() const {
+    return plan_.batches.size() == 1 && plan_.batches.front().view_count > views_a_turn;
+}
+
+std::span<const ShadowPlan::View> FrameRenderer::views_due(const FrameSample& sample, const ShadowBatch& batch, const ShadowKey& wanted) {
+    const std::span views(plan_.views.data() + batch.first_view, batch.view_count);
+    const bool same_scene = wanted.scene_revision == resident_shadows_.scene_revision;
+    const bool any_resident = resident_shadows_.scene_revision != ShadowKey{}.scene_revision;
+    const bool live = sample.count == 0;
+    // A still picture shows no older scene's shadows.
+    if (!refreshes_in_turns() || !any_resident || (!live && !same_scene)) {
+        next_view_ = stale_views_ = 0;
+        return views;
+    }
+    if (!same_scene) stale_views_ = batch.view_count;
+    if (live && forced_shadows_) return {};  // the voxel volume took this frame's turn
+    const std::uint32_t first = next_view_;
+    std::uint32_t end = std::min(first + views_a_turn, batch.view_count);
+    while (end < batch.view_count && views[end].face != 0) ++end;  // a cube's faces stay together
+    next_view_ = end == batch.view_count ? 0 : end;
+    stale_views_ -= std::min(stale_views_, end - first);
+    return views.subspan(first, end - first);
+}
+
+Result<void> FrameRenderer::place_area_lights(const FrameSample& sample, std::span<const ShadowPlan::View> views) {
+    placed_lights_ = lights_;
+    if (!has_area_lights_) return {};
+    for (const ShadowPlan::View& view : views) {
+        shading::LightData& light = placed_lights_[view.light];
+        if (view.face != 0 || light.radius <= 0) continue;
+        // Every light goes through its points in an order of its own.
+        light = sample.jitter_shadows ? point_of_area_light(light, sample_position(sample.shadow_index, 0, sample.seed + view.light + 1))
+                                      : center_of_area_light(light);
+        if (auto done = gpu_scene_.stand_in_for_light(view.light, light); !done) return done;
+    }
+    return {};
+}
+
+Result<void> FrameRenderer::record_shadows(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
+                                           gpu::Timestamps* timestamps) {
+    const ShadowKey wanted{gpu_scene_.revision(), batch, sample.shadow_index, sample.jitter_shadows};
+    if (wanted == resident_shadows_ && stale_views_ == 0 && (!sample.force_shadows || forced_shadows_)) return {};
+    const auto due = views_due(sample, plan_.batches[batch], wanted);
+    if (due.empty() && refreshes_in_turns()) return {};
+    glm::vec2 jitter(0);
+    if (sample.jitter_shadows) jitter = sample_position(sample.shadow_index, 0, sample.seed) - 0.5f;
+    if (auto done = place_area_lights(sample, due); !done) return done;
+    if (auto done = record_light_grid(commands, sample, batch, timestamps); !done) return done;
+    const auto views = shadow_views(due, placed_lights_, gpu_scene_.bounds(), jitter);
+    std::vector<shading::ViewData> cull_views;
+    shadow_inputs_.draws.clear();
+    for (const shading::ShadowViewData& view : views) {
+        shadow_inputs_.draws.push_back({static_cast<std::uint32_t>(cull_views.size()), view.layer,
+                                        {{static_cast<int>(view.corner_x), static_cast<int>(view.corner_y)}, {view.size, view.size}}});
+        cull_views.push_back({view.world_to_clip});
+    }
+    shadow_inputs_.view_count = static_cast<std::uint32_t>(views.size());
+    shadow_inputs_.random_seed = sample.shadow_index + sample.seed;
+    if (!views.empty()) {
+        const std::size_t first = static_cast<std::size_t>(due.data() - plan_.views.data()) - plan_.batches[batch].first_view;
+        if (auto done = device_.upload<shading::ShadowViewData>(shadow_views_, views, first * sizeof(shading::ShadowViewData)); !done)
+            return done;
+        if (auto done = device_.upload<shading::ViewData>(shadow_cull_views_, cull_views); !done) return done;
+    }
+    // Also without views: the graph brings the image into the layout that shading expects.
+    if (auto done = shadow_executor_->execute(commands, timestamps); !done) return done;
+    resident_shadows_ = wanted;
+    forced_shadows_ = sample.force_shadows || (refreshes_in_turns() && sample.count == 0);
+    return {};
+}
 
 Result<void> FrameRenderer::record_light_grid(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
                                               gpu::Timestamps* timestamps) {

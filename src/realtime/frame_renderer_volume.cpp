@@ -38,6 +38,7 @@ std::uint32_t effect_bits(const ConeTracingSettings& vct) {
 /// Shadow maps as voxels read them: filtered, without movement of their texel grid.
 FrameSample unmoved(const FrameSample& sample) {
     FrameSample still;
+    still.count = sample.count;
     still.seed = sample.seed;
     still.force_shadows = sample.force_shadows;
     return still;
@@ -75,7 +76,7 @@ Result<void> FrameRenderer::update_volume(const Camera& camera, const FrameSampl
     const bool live = sample.count == 0;
     voxelize_ = placed || (changed && settings_.revoxelize != Revoxelize::once) ||
                 (live && settings_.revoxelize == Revoxelize::always);
-    relight_ = voxelize_ || !(wanted == volume_key_) || (live && sample.force_shadows);
+    relight_ = voxelize_ || !(wanted == volume_key_) || (live && (sample.force_shadows || shadows_lag()));
     if (relight_) bounces_done_ = 0;
     volume_key_ = wanted;
     return {};

@@ -128,8 +128,10 @@ struct RealtimeRenderer::State {
             for (; done < count; ++done) {
                 FrameSample sample = still_sample(options, done, count);
                 if (count == 1) sample.jitter = glm::vec2(0);
-                // Each sample draws anew what blended surfaces let through and the point of a light with an extent.
-                if (frames->scene().has_blended() || frames->has_area_lights()) sample.shadow_index = sample.index;
+                // Each sample draws anew what blended surfaces let through and the point of a light with an extent, or takes
+                // its turn with very many shadow maps.
+                if (frames->scene().has_blended() || frames->has_area_lights() || frames->refreshes_in_turns())
+                    sample.shadow_index = sample.index;
                 sample.aov = kind.code;
                 sample.cone_traced = options.gi == "vct" && kind.cone_traced;
                 PassTimes times;

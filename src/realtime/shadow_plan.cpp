@@ -229,13 +229,19 @@ ShadowPlan plan_shadows(std::span<const LightData> lights, const Bounds& scene, 
     return plan;
 }
 
-std::vector<ShadowViewData> shadow_views(const ShadowPlan& plan, const ShadowBatch& batch, std::span<const LightData> lights,
+bool same_views(const ShadowPlan& a, const ShadowPlan& b) {
+    return a.active_lights == b.active_lights && a.shadow_of_light == b.shadow_of_light && a.batches.size() == b.batches.size() &&
+           std::equal(a.views.begin(), a.views.end(), b.views.begin(), b.views.end(), [](const auto& x, const auto& y) {
+               return x.light == y.light && x.face == y.face && x.cube == y.cube;
+           });
+}
+
+std::vector<ShadowViewData> shadow_views(std::span<const ShadowPlan::View> sources, std::span<const LightData> lights,
                                          const Bounds& scene, glm::vec2 jitter_texels) {
     std::vector<ShadowViewData> views;
     // Depth is near/w in 32-bit floats, as precise at any near distance; nearer than this, nothing blocks.
     const float near_m = std::max(scene.diagonal(), 1e-6f) * (1.0f / 65536.0f);
-    for (std::uint32_t i = 0; i < batch.view_count; ++i) {
-        const ShadowPlan::View& source = plan.views[batch.first_view + i];
+    for (const ShadowPlan::View& source : sources) {
         const LightData& light = lights[source.light];
         const auto map_size = static_cast<float>(source.place.size);
         const glm::vec2 jitter_ndc = jitter_texels * (2.0f / map_size);

@@ -44,11 +44,13 @@ struct ShadowPlan {
     std::vector<View> views;
     std::vector<ShadowBatch> batches;            ///< at least one (of no lights, when none shines)
 };
+/// Whether two plans have the same views in the same order, wherever their maps lie.
+[[nodiscard]] bool same_views(const ShadowPlan& a, const ShadowPlan& b);
 [[nodiscard]] ShadowPlan plan_shadows(std::span<const shading::LightData> lights, const Bounds& scene, const ShadowBudget& budget);
 
-/// The views of one batch. `jitter_texels` moves the texel grid, so that the mean over many shadow maps is
+/// The views as shaders want them. `jitter_texels` moves the texel grid, so that the mean over many shadow maps is
 /// free of its stairs. `scene` bounds what directional lights must cover.
-[[nodiscard]] std::vector<shading::ShadowViewData> shadow_views(const ShadowPlan& plan, const ShadowBatch& batch,
+[[nodiscard]] std::vector<shading::ShadowViewData> shadow_views(std::span<const ShadowPlan::View> views,
                                                                 std::span<const shading::LightData> lights,
                                                                 const Bounds& scene, glm::vec2 jitter_texels);
 

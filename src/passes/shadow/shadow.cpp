@@ -21,8 +21,9 @@ Result<void> add_shadow(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInp
         [&](graph::PassBuilder& pass) {
             pass.read(lists.commands, graph::Usage::indirect);
             pass.read(lists.counts, graph::Usage::indirect);
-            pass.write(maps.depth, graph::Usage::depth_attachment);
-            pass.write(maps.slope, graph::Usage::color_attachment);
+            // Maps that are not drawn now stay.
+            pass.read_write(maps.depth, graph::Usage::depth_attachment);
+            pass.read_write(maps.slope, graph::Usage::color_attachment);
         },
         [&scene, &inputs, lists, maps, opaque = *opaque, tested = *tested](graph::PassContext& context) {
             const auto draw_view = [&](const gpu::GraphicsPipeline& pipeline, std::uint32_t view, std::uint32_t list) {
@@ -30,19 +31,15 @@ Result<void> add_shadow(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInp
                                       select_bindings(pipeline, scene, {{8, *inputs.views}}));
                 draw_list(context, scene, lists, view, list);
             };
-            for (std::size_t next = 0; next < inputs.draws.size();) {
-                const std::uint32_t layer = inputs.draws[next].layer;
+            for (const ShadowDraw& draw : inputs.draws) {
                 gpu::Rendering rendering;
-                rendering.depth = gpu::DepthAttachment{.view = context.image(maps.depth).layer(layer), .clear = 0.0f};
+                rendering.area = draw.area;
+                rendering.depth = gpu::DepthAttachment{.view = context.image(maps.depth).layer(draw.layer), .clear = 0.0f};
                 // Where nothing stands the slope is never looked at.
-                rendering.color.push_back({.view = context.image(maps.slope).layer(layer), .load = VK_ATTACHMENT_LOAD_OP_DONT_CARE});
+                rendering.color.push_back({.view = context.image(maps.slope).layer(draw.layer), .load = VK_ATTACHMENT_LOAD_OP_DONT_CARE});
                 context.commands.begin_rendering(rendering);
-                for (; next < inputs.draws.size() && inputs.draws[next].layer == layer; ++next) {
-                    context.commands.set_viewport(inputs.draws[next].area);
-                    draw_view(*opaque, inputs.draws[next].view, shading::draw_list_opaque);
-                    if (scene.has_tested || scene.has_blended)
-                        draw_view(*tested, inputs.draws[next].view, shading::draw_list_tested);
-                }
+                draw_view(*opaque, draw.view, shading::draw_list_opaque);
+                if (scene.has_tested || scene.has_blended) draw_view(*tested, draw.view, shading::draw_list_tested);
                 context.commands.end_rendering();
             }
         });

@@ -20,7 +20,7 @@ struct ShadowDraw {
 /// What of the shadow maps the frame being recorded renders.
 struct ShadowInputs {
     const gpu::Buffer* views = nullptr;  ///< ViewData
-    std::vector<ShadowDraw> draws;       ///< every view once, by layer
+    std::vector<ShadowDraw> draws;       ///< what is drawn; other maps stay
     std::uint32_t view_count = 0;
     std::uint32_t random_seed = 0;  ///< of the share of light that blended surfaces let through
 };
