@@ -80,7 +80,7 @@ Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camer
         sample.count = 0;
         sample.jitter = realtime::sample_position(sample.index, 0, 0) - 0.5f;
         sample.jitter_shadows = state.samples >= filtered_samples;
-        const int per_grid = frames.has_area_lights() ? 1 : samples_per_shadow_grid;
+        const int per_grid = frames.has_area_lights() || frames.refreshes_in_turns() ? 1 : samples_per_shadow_grid;
         sample.shadow_index = sample.jitter_shadows ? sample.index / per_grid : 0;
         sample.environment = environment;
         sample.cone_traced = frames.settings().gi == "vct";

@@ -125,43 +125,5 @@ TEST_F(DirectLight, MoreLightsThanLargeShadowMapsFitShareThem) {
     }
 }
 
-TEST_F(DirectLight, ManyLightsArePickedAndTheirMeanIsTheSumOfAll) {
-    Scene scene;
-    add_floor(scene, 4, scene.add_material(lambert(glm::vec3(1))));
-    std::vector<std::pair<glm::vec3, float>> lights;
-    for (int i = 0; i < 300; ++i) {
-        const glm::vec3 position(-3 + 6 * std::fmod(0.618034f * i, 1.0f), 0.3f + 0.005f * i, -3 + 6 * std::fmod(0.754878f * i, 1.0f));
-        lights.emplace_back(position, 1.0f + i % 5);
-        add_point_light(scene, position, glm::vec3(lights.back().second));
-    }
-    add_sun(scene, {0, -1, 0}, glm::vec3(100));
-    RealtimeOptions options;
-    options.width = options.height = 16;
-    options.samples = 64;
-    RealtimeStatistics statistics;
-    const Picture picture = render(scene, camera_above(6, 3), options, &statistics);
-    EXPECT_EQ(statistics.light_batches, 1);
-    double expected_mean = 0, mean = 0, squares = 0;
-    for (int y = 0; y < 16; ++y)
-        for (int x = 0; x < 16; ++x) {
-            // The mean over the pixel by its middle and a finer grid: near lights are small.
-            double expected = 0;
-            for (int s = 0; s < 64; ++s) {
-                const glm::vec3 point = floor_point(8 * x + s % 8, 8 * y + s / 8, 128, 3);
-                double sum = 100;
-                for (const auto& [position, candela] : lights) {
-                    const glm::vec3 to_light = position - point;
-                    sum += candela * to_light.y / std::pow(glm::length(to_light), 3.0f);
-                }
-                expected += sum / pi / 64;
-            }
-            expected_mean += expected / 256;
-            mean += picture.image.at(x, y) / 256;
-            squares += std::pow(picture.image.at(x, y) / expected - 1, 2) / 256;
-        }
-    EXPECT_NEAR(mean / expected_mean, 1, 0.003);
-    EXPECT_LT(std::sqrt(squares), 0.03);  // noise of 64 samples
-}
-
 }  // namespace
 }  // namespace heliodon::tests
