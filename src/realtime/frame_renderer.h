@@ -119,6 +119,7 @@ private:
         int bounces = 0;
         bool sky = true;
         float radiance_unit = 1;
+        std::uint32_t effects = 0;
         bool operator==(const VolumeKey&) const = default;
     };
 
@@ -146,6 +147,9 @@ private:
     /// What a live frame does for the volume.
     [[nodiscard]] Result<void> record_volume(gpu::Commands& commands, const FrameSample& sample, std::size_t batch);
     [[nodiscard]] Result<void> record_volume_bounces(gpu::Commands& commands);
+    /// Whether anything but lights brings light.
+    [[nodiscard]] bool emission_or_sky() const;
+    void surfaces_voxelized();
     [[nodiscard]] Result<void> submit(gpu::Commands commands, PassTimes* times);
     [[nodiscard]] Result<void> make_images();
     [[nodiscard]] Result<void> build_shadow_graph();
@@ -166,6 +170,7 @@ private:
     VolumeKey volume_key_;
     bool voxelize_ = false, relight_ = false;  // due in this frame
     std::uint64_t voxelized_texture_ = 0;
+    std::uint64_t voxelized_surfaces_ = ~0ull, voxelized_placement_ = ~0ull;  // GpuScene's and VoxelVolume's revisions
     int bounces_done_ = 0;                     // since the volume last changed
 
     ShadowPlan plan_;

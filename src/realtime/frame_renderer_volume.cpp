@@ -48,7 +48,8 @@ FrameSample unmoved(const FrameSample& sample) {
 
 Result<void> FrameRenderer::prepare_volume(const Camera& camera) {
     const VoxelVolume::Source source{gpu_scene_, inputs_, lighting_, shadow_depth_, shadow_slope_};
-    const VoxelSettings settings{settings_.voxels, settings_.cascades, settings_.voxelizer == Voxelizer::raster};
+    const VoxelSettings settings{settings_.voxels, settings_.cascades, settings_.voxelizer == Voxelizer::raster,
+                                 settings_.revoxelize == Revoxelize::always};
     if (auto done = voxels_.prepare(source, settings, camera.position); !done) return done;
     wanted_.volume = voxels_.texture_revision();
     return {};
@@ -60,6 +61,8 @@ Result<void> FrameRenderer::update_volume(const Camera& camera, const FrameSampl
     wanted.placement = voxels_.placement_revision();
     wanted.bounces = settings_.bounces;
     wanted.sky = sample.environment;
+    // What else the light of voxels depends on: whether the sky is occluded, and how shadows are found.
+    wanted.effects = effect_bits(settings_.vct) & (shading::gi_effect_occlusion | shading::gi_effect_shadows);
     // What the camera exposes for lies in the middle of half precision; powers of two change no digit.
     wanted.radiance_unit = std::exp2(std::floor(camera.ev100()));
 
@@ -71,10 +74,9 @@ Result<void> FrameRenderer::update_volume(const Camera& camera, const FrameSampl
     data.gather_sets = 1;
     if (auto done = voxels_.upload_data(data); !done) return done;
 
-    const bool placed = wanted.placement != volume_key_.placement;
-    const bool changed = wanted.scene != volume_key_.scene;
     const bool live = sample.count == 0;
-    voxelize_ = placed || (changed && settings_.revoxelize != Revoxelize::once) ||
+    voxelize_ = wanted.placement != voxelized_placement_ ||
+                (gpu_scene_.surface_revision() != voxelized_surfaces_ && settings_.revoxelize != Revoxelize::once) ||
                 (live && settings_.revoxelize == Revoxelize::always);
     relight_ = voxelize_ || !(wanted == volume_key_) || (live && (sample.force_shadows || shadows_lag()));
     if (relight_) bounces_done_ = 0;
@@ -88,7 +90,8 @@ Result<void> FrameRenderer::update_surfaces(const Camera& camera, const FrameSam
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
         if (auto done = prepare(camera, sample); !done) return done;
         if (auto done = update_volume(camera, sample); !done) return done;
-        if (!voxelize_ || (sample.count == 0 && voxelized_texture_ == voxels_.texture_revision())) return {};
+        const bool within_frame = sample.count == 0 && plan_.batches.size() == 1;  // record_volume
+        if (!voxelize_ || (within_frame && voxelized_texture_ == voxels_.texture_revision())) return {};
         auto enough = surfaces_find_room();
         if (!enough) return tl::unexpected(enough.error());
         if (!*enough) continue;
@@ -104,28 +107,34 @@ Result<bool> FrameRenderer::grow_volume() {
     return voxels_.grow();
 }
 
+bool FrameRenderer::emission_or_sky() const {
+    return voxels_.emits() || (volume_key_.sky && gpu_scene_.flat().sky().model != shading::sky_model_none);
+}
+
 Result<void> FrameRenderer::record_volume_bounces(gpu::Commands& commands) {
-    const bool something_to_gather = voxels_.emits() || (volume_key_.sky && gpu_scene_.flat().sky().model != shading::sky_model_none);
     if (settings_.bounces == 0) {
         // All bounces: each frame adds one to what the volume holds.
         if (bounces_done_ >= most_live_bounces) return {};
         return voxels_.record_bounce(commands, &timestamps_, next_gather(bounces_done_++, converging_bounces));
     }
     if (!relight_) return {};
-    // So many bounces, from nothing: the frame owes nothing to those before it.
-    if (something_to_gather)
-        if (auto done = voxels_.record_emission(commands, &timestamps_); !done) return done;
     for (int bounce = 0; bounce < settings_.bounces; ++bounce)
-        if (auto done = voxels_.record_bounce(commands, &timestamps_, bounce > 0 || something_to_gather ? gather_once : nothing); !done)
+        if (auto done = voxels_.record_bounce(commands, &timestamps_, bounce > 0 || emission_or_sky() ? gather_once : nothing); !done)
             return done;
     return {};
 }
 
 Result<void> FrameRenderer::record_volume(gpu::Commands& commands, const FrameSample& sample, std::size_t batch) {
     if (sample.count > 0) return {};  // converged before
-    if (voxelize_)
+    if (voxelize_) {
         if (auto done = voxels_.record_surfaces(commands, &timestamps_); !done) return done;
+        surfaces_voxelized();
+    }
     if (relight_) {
+        // So many bounces begin with nothing: the frame owes nothing to those before it. Cones that find shadows need the
+        // surfaces where they are now.
+        if (settings_.bounces > 0 && (emission_or_sky() || has_cone_shadows_))
+            if (auto done = voxels_.record_emission(commands, &timestamps_); !done) return done;
         if (auto done = record_shadows(commands, unmoved(sample), batch, &timestamps_); !done) return done;
         const ShadowBatch& lights = plan_.batches[batch];
         if (auto done = voxels_.record_lights(commands, &timestamps_, lights.first_light, lights.light_count, false); !done)
@@ -134,11 +143,17 @@ Result<void> FrameRenderer::record_volume(gpu::Commands& commands, const FrameSa
     return record_volume_bounces(commands);
 }
 
+void FrameRenderer::surfaces_voxelized() {
+    voxelized_surfaces_ = gpu_scene_.surface_revision();
+    voxelized_placement_ = voxels_.placement_revision();
+}
+
 Result<bool> FrameRenderer::surfaces_find_room() {
     auto done = device_.run("voxelize", [&](gpu::Commands& commands) {
         if (auto recorded = voxels_.record_surfaces(commands, nullptr); !recorded) commands.fail("voxelize", recorded.error().text());
     });
     if (!done) return tl::unexpected(done.error());
+    surfaces_voxelized();
     auto grown = voxels_.grow();
     if (!grown) return tl::unexpected(grown.error());
     return !*grown;
@@ -150,6 +165,8 @@ Result<void> FrameRenderer::converge_volume(const FrameSample& sample) {
         auto done = device_.run(name, [&](gpu::Commands& commands) { status = record(commands); });
         return status ? done : status;
     };
+    if (auto done = run("emission", [&](gpu::Commands& commands) { return voxels_.record_emission(commands, nullptr); }); !done)
+        return done;
     for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch) {
         auto done = run("light voxels", [&](gpu::Commands& commands) -> Result<void> {
             if (auto shadows = record_shadows(commands, unmoved(sample), batch, nullptr); !shadows) return shadows;
@@ -158,8 +175,6 @@ Result<void> FrameRenderer::converge_volume(const FrameSample& sample) {
         });
         if (!done) return done;
     }
-    if (auto done = run("emission", [&](gpu::Commands& commands) { return voxels_.record_emission(commands, nullptr); }); !done)
-        return done;
     const int limit = settings_.bounces > 0 ? settings_.bounces : most_bounces;
     double before = 0;
     const auto bounce = [&](const VoxelVolume::Gather& gather) {

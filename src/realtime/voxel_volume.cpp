@@ -7,13 +7,17 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <tuple>
+#include <utility>
 
 namespace heliodon::realtime {
 namespace {
 
 // Empty voxels of the widest cascade round the scene, so that walls at its bounds lie in the middle of a voxel,
 // not between two.
-constexpr float margin_voxels = 1.5f;
+constexpr float margin_voxels = 0.5f;
+// Whole numbers and fractions that single precision tells apart.
+constexpr int exact_bits = 24;
 // Inner cascades move by so many voxels at a time: the voxels of the next one must hold them in pairs.
 constexpr float snap_voxels = 2.0f;
 
@@ -42,6 +46,10 @@ Result<gpu::Buffer> zeroed(gpu::Device& device, const char* name, VkDeviceSize b
     return buffer;
 }
 
+bool same_range(const passes::TriangleRange& a, const passes::TriangleRange& b) {
+    return a.first_triangle == b.first_triangle && a.instance == b.instance;
+}
+
 constexpr gpu::Access cleared{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
 constexpr gpu::Access sampled{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
@@ -65,9 +73,11 @@ Result<void> VoxelVolume::check_size(const VoxelSettings& settings) const {
 }
 
 Result<void> VoxelVolume::open() {
-    auto made = gpu::Buffer::create(device_, {"volume", sizeof(shading::VolumeData)});
-    if (!made) return tl::unexpected(made.error());
-    data_buffer_ = std::move(*made);
+    for (gpu::Buffer* buffer : {&data_buffer_, &shown_buffer_}) {
+        auto made = gpu::Buffer::create(device_, {"volume", sizeof(shading::VolumeData)});
+        if (!made) return tl::unexpected(made.error());
+        *buffer = std::move(*made);
+    }
     return make_texture({2, 1, 3});
 }
 
@@ -86,7 +96,10 @@ Result<void> VoxelVolume::make_texture(VkExtent3D extent) {
                                                  made.error().text()));
     faces_ = std::move(*made);
     ++texture_revision_;
+    shown_ = {};
     inputs_ = {&faces_, &data_buffer_, *trilinear};
+    shown_inputs_ = inputs_;
+    shown_inputs_.data = &shown_buffer_;
     return device_.run("clear volume", [&](gpu::Commands& commands) {
         commands.transition(faces_, cleared);
         commands.clear({&faces_}, {});
@@ -123,6 +136,24 @@ Result<void> VoxelVolume::make_buffers() {
     return {};
 }
 
+Result<void> VoxelVolume::make_still_buffers() {
+    const auto sizes = passes::voxel_buffer_sizes(data_.size, record_capacity_, tile_capacity_);
+    for (auto& cascade : cascades_)
+        for (const auto& [buffer, name, bytes] : {std::tuple{&cascade->still_numbers, "still numbers", VkDeviceSize{sizeof(shading::VoxelHeader)}},
+                                                  std::tuple{&cascade->still_cells, "still cells", sizes.cells},
+                                                  std::tuple{&cascade->still_records, "still records", sizes.records}}) {
+            auto made = zeroed(device_, name, bytes);
+            if (!made) return tl::unexpected(made.error());
+            *buffer = std::move(*made);
+        }
+    return {};
+}
+
+VoxelVolume::Surfaces VoxelVolume::surfaces(int index) const {
+    const Cascade& cascade = *cascades_[static_cast<std::size_t>(index)];
+    return {cascade.constants.grid, cascade.numbers, cascade.cells, cascade.records};
+}
+
 Result<void> VoxelVolume::place(const GpuScene& scene, glm::vec3 eye) {
     const Bounds bounds = scene.bounds();
     const glm::vec3 extent = glm::max(bounds.max - bounds.min, glm::vec3(0));
@@ -141,48 +172,78 @@ Result<void> VoxelVolume::place(const GpuScene& scene, glm::vec3 eye) {
         wanted.cascade[c].base = c == last ? glm::ivec3(0) : glm::ivec3(snap_voxels * glm::round(corner / snap_voxels));
     }
     if (std::memcmp(&wanted, &data_, sizeof(data_)) == 0 && placement_revision_ > 0) return {};
+    if (wanted.voxel_m != data_.voxel_m || wanted.lattice != data_.lattice) forget_surfaces();
     data_ = wanted;
     ++placement_revision_;
-    const float brightest = brightest_emission(scene.flat());
     for (int c = 0; c <= last; ++c) {
         shading::VoxelGrid& grid = cascades_[c]->constants.grid;
         grid.voxel_m = std::ldexp(data_.voxel_m, c);
-        grid.origin = data_.lattice + grid.voxel_m * glm::vec3(data_.cascade[c].base);
+        grid.origin = data_.lattice;
+        grid.base = data_.cascade[c].base;
         grid.size = data_.size;
-        grid.emission_unit = brightest > 0 ? brightest : 1.0f;
+        // The lattice has size · 2^(last − c) of this cascade's voxels an edge.
+        grid.snap = c == last ? 0.0f : std::ldexp(size, last - c - exact_bits);
         cascades_[c]->constants.cascade = static_cast<std::uint32_t>(c);
-        cascades_[c]->voxelize.grid = grid;
     }
     return {};
 }
 
 Result<void> VoxelVolume::list_triangles(const GpuScene& scene) {
     const convert::FlatScene& flat = scene.flat();
-    std::vector<passes::TriangleRange> ranges;
-    std::uint64_t triangles = 0;
+    std::vector<passes::TriangleRange> still, moving;
+    std::uint64_t still_triangles = 0, moving_triangles = 0;
     for (std::uint32_t i = 0; i < flat.instances().size(); ++i) {
         const shading::InstanceData& instance = flat.instances()[i];
         if ((instance.flags & shading::instance_flag_visible) == 0) continue;
         const Geometry* geometry = flat.geometries()[instance.geometry];
         if (!geometry || geometry->mesh.indices.empty()) continue;
-        ranges.push_back({static_cast<std::uint32_t>(triangles), i});
+        const bool moves = !settings_.anew && scene.surfaces().moves(i);
+        std::uint64_t& triangles = moves ? moving_triangles : still_triangles;
+        (moves ? moving : still).push_back({static_cast<std::uint32_t>(triangles), i});
         triangles += geometry->mesh.indices.size() / 3;
     }
-    if (triangles > 0xffffffffull) return fail("", fmt::format("{} triangles are more than can be voxelized", triangles));
-    if (auto done = triangle_ranges_.reserve(device_, ranges.size() * sizeof(passes::TriangleRange), 0); !done) return done;
-    if (!ranges.empty())
-        if (auto done = device_.upload(triangle_ranges_.buffer(), std::span<const passes::TriangleRange>(ranges)); !done) return done;
+    if (still_triangles + moving_triangles > 0xffffffffull)
+        return fail("", fmt::format("{} triangles are more than can be voxelized", still_triangles + moving_triangles));
+    const auto write = [&](GrowingBuffer& buffer, std::span<const passes::TriangleRange> ranges) -> Result<void> {
+        if (auto done = buffer.reserve(device_, ranges.size_bytes(), 0); !done || ranges.empty()) return done;
+        return device_.upload(buffer.buffer(), ranges);
+    };
+    if (auto done = write(still_ranges_, still); !done) return done;
+    if (auto done = write(moving_ranges_, moving); !done) return done;
     for (auto& cascade : cascades_) {
-        cascade->voxelize.triangle_ranges = &triangle_ranges_.buffer();
-        cascade->voxelize.range_count = static_cast<std::uint32_t>(ranges.size());
-        cascade->voxelize.triangle_count = static_cast<std::uint32_t>(triangles);
+        for (passes::VoxelizeInputs* inputs : {&cascade->still, &cascade->entered}) {
+            inputs->triangle_ranges = &still_ranges_.buffer();
+            inputs->range_count = static_cast<std::uint32_t>(still.size());
+            inputs->triangle_count = static_cast<std::uint32_t>(still_triangles);
+        }
+        cascade->moving.triangle_ranges = &moving_ranges_.buffer();
+        cascade->moving.range_count = static_cast<std::uint32_t>(moving.size());
+        cascade->moving.triangle_count = static_cast<std::uint32_t>(moving_triangles);
+        cascade->entered.entered_only = true;
     }
-    emits_ = brightest_emission(flat) > 0;
+    if (!std::equal(still.begin(), still.end(), still_.begin(), still_.end(), same_range) ||
+        loaded_revision_ != scene.surfaces().loaded_revision())
+        forget_surfaces();
+    still_ = std::move(still);
+    moving_ = std::move(moving);
+    loaded_revision_ = scene.surfaces().loaded_revision();
+    // A power of two at least as bright: lamps that are dimmed seldom change it.
+    const float brightest = brightest_emission(flat);
+    const float unit = brightest > 0 ? std::exp2(std::ceil(std::log2(brightest))) : 1.0f;
+    if (unit != emission_unit_) forget_surfaces();
+    emission_unit_ = unit;
+    emits_ = brightest > 0;
     return {};
+}
+
+void VoxelVolume::forget_surfaces() {
+    for (auto& cascade : cascades_) cascade->known = false;
 }
 
 Result<void> VoxelVolume::prepare(const Source& source, const VoxelSettings& settings, glm::vec3 eye) {
     const bool same_size = settings.voxels == settings_.voxels && settings.cascades == settings_.cascades;
+    if (settings.anew != settings_.anew) listed_revision_ = ~0ull;
+    settings_.anew = settings.anew;
     if (!(settings == settings_) || remake_) {
         if (auto done = check_size(settings); !done) return done;
         if (auto done = device_.wait_idle(); !done) return done;
@@ -202,12 +263,18 @@ Result<void> VoxelVolume::prepare(const Source& source, const VoxelSettings& set
         ++placement_revision_;
         data_ = {};
     }
-    if (listed_revision_ != source.scene.revision()) {
+    if (listed_revision_ != source.scene.surface_revision()) {
         if (auto done = list_triangles(source.scene); !done) return done;
-        listed_revision_ = source.scene.revision();
+        listed_revision_ = source.scene.surface_revision();
     }
     if (auto done = place(source.scene, eye); !done) return done;
-    for (auto& cascade : cascades_) cascade->voxelize.shading_tables = source.lighting.shading_tables;
+    if ((cascades_.size() > 1 || !moving_.empty()) && !cascades_.front()->still_records) {
+        if (auto done = make_still_buffers(); !done) return done;
+        passes_known_ = false;
+    }
+    for (auto& cascade : cascades_)
+        for (passes::VoxelizeInputs* inputs : {&cascade->still, &cascade->entered, &cascade->moving})
+            inputs->shading_tables = source.lighting.shading_tables;
     if (remake_ || !passes_known_)
         if (auto done = build_graphs(source); !done) return done;
     remake_ = false;
@@ -223,18 +290,57 @@ Result<void> VoxelVolume::upload_data(shading::VolumeData data) {
     all.gather_sets = data.gather_sets;
     all.sequence = data.sequence;
     for (auto& cascade : cascades_) cascade->constants.grid.radiance_unit = data.radiance_unit;
+    data_.radiance_unit = data.radiance_unit;
+    if (shown_.size == 0) shown_ = data_;
+    current_ = all;
     return device_.upload(data_buffer_, std::span<const shading::VolumeData>(&all, 1));
 }
 
 Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps) {
-    if (auto done = steps_->surfaces.execute(commands, timestamps); !done) return done;
+    if (settings_.anew) forget_surfaces();
+    if (auto done = steps_->keep_shown.execute(commands, timestamps); !done) return done;
     outdated_ = true;
+    for (std::size_t cascade = 0; cascade < cascades_.size(); ++cascade)
+        if (auto done = record_surfaces(commands, timestamps, cascade); !done) return done;
     return {};
+}
+
+Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, std::size_t index) {
+    Cascade& cascade = *cascades_[index];
+    SurfaceSteps& steps = *steps_->surfaces[index];
+    shading::VoxelGrid& grid = cascade.constants.grid;
+    grid.emission_unit = emission_unit_;
+    for (passes::VoxelizeInputs* inputs : {&cascade.still, &cascade.entered, &cascade.moving}) inputs->grid = grid;
+    const glm::ivec3 shift = grid.base - cascade.base;
+    const auto keep = [&]() -> Result<void> {
+        if (std::exchange(cascade.kept, true)) return {};
+        return steps.keep.execute(commands, timestamps);
+    };
+    if (!cascade.known || glm::any(glm::greaterThanEqual(glm::abs(shift), glm::ivec3(settings_.voxels)))) {
+        if (auto done = steps.all.execute(commands, timestamps); !done) return done;
+        cascade.known = cascade.in_place = true;
+        cascade.kept = false;
+        ++work_.all;
+    } else if (shift != glm::ivec3(0)) {
+        if (auto done = keep(); !done) return done;
+        cascade.entered.shift = shift;
+        if (auto done = steps.enter.execute(commands, timestamps); !done) return done;
+        cascade.in_place = true;
+        cascade.kept = false;
+        ++work_.entered;
+    }
+    cascade.base = grid.base;
+    if (moving_.empty() && cascade.in_place) return {};
+    if (auto done = keep(); !done) return done;
+    cascade.in_place = moving_.empty();
+    ++work_.moving;
+    return steps.move.execute(commands, timestamps);
 }
 
 Result<void> VoxelVolume::show(graph::Executor& step, gpu::Commands& commands, gpu::Timestamps* timestamps) {
     if (auto done = step.execute(commands, timestamps); !done) return done;
     outdated_ = false;
+    shown_ = data_;
     return {};
 }
 
@@ -259,6 +365,13 @@ Result<void> VoxelVolume::record_bounce(gpu::Commands& commands, gpu::Timestamps
         cascade->constants.gather_shift = gather->shift;
         cascade->constants.gather_weight = gather->weight;
     }
+    // Light is gathered from the texture as it is, by the cones of now.
+    shading::VolumeData before = current_;
+    before.lattice = shown_.lattice;
+    before.voxel_m = shown_.voxel_m;
+    before.radiance_unit = shown_.radiance_unit;
+    std::copy(std::begin(shown_.cascade), std::end(shown_.cascade), std::begin(before.cascade));
+    if (auto done = device_.upload(shown_buffer_, std::span<const shading::VolumeData>(&before, 1)); !done) return done;
     return show(steps_->bounce, commands, timestamps);
 }
 
@@ -269,8 +382,8 @@ Result<bool> VoxelVolume::grow() {
         if (!bytes) return tl::unexpected(bytes.error());
         shading::VoxelHeader header;
         std::memcpy(&header, bytes->data(), sizeof(header));
-        records = std::max(records, header.record_demand);
-        tiles = std::max(tiles, header.tile_demand);
+        records = std::max(records, header.record_demand + header.carried_without_room);
+        tiles = std::max({tiles, header.tile_demand, header.carried_tile_demand});
     }
     if (records <= record_capacity_ && tiles <= tile_capacity_) return false;
     // An eighth more than now, so that what moves a little finds room too.
@@ -280,7 +393,7 @@ Result<bool> VoxelVolume::grow() {
     return true;
 }
 
-Result<double> VoxelVolume::total_radiance() {
+Result<double> VoxelVolume::total_radiance() const {
     const std::uint32_t level = faces_.mips() - 1;  // one texel a face and cascade
     auto texels = device_.read_back_as<std::uint16_t>(faces_, level);
     if (!texels) return tl::unexpected(texels.error());

@@ -14,6 +14,7 @@ namespace heliodon::realtime {
 struct VoxelSettings {
     int voxels = 128, cascades = 1;
     bool raster = false;  ///< the hardware rasterizer voxelizes
+    bool anew = false;    ///< all surfaces each time, also those that never moved
     bool operator==(const VoxelSettings&) const = default;
 };
 
@@ -33,7 +34,8 @@ public:
     };
     /// Places the cascades about `eye`, makes what they need and lists the surfaces. Errors: a volume that the device cannot hold, with its size.
     [[nodiscard]] Result<void> prepare(const Source& source, const VoxelSettings& settings, glm::vec3 eye);
-    /// Voxelizes all surfaces anew. The texture shows those before until the next emission or bounce.
+    /// Brings the voxelized surfaces up to date: what never moved is voxelized once, and where a cascade moved, only the
+    /// voxels that entered it. The texture shows those before until the next emission or bounce.
     [[nodiscard]] Result<void> record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps);
     /// Lights voxels with one batch of lights; `add`: to what those before gave.
     [[nodiscard]] Result<void> record_lights(gpu::Commands& commands, gpu::Timestamps* timestamps, std::uint32_t light_first,
@@ -54,7 +56,7 @@ public:
     /// Whether surfaces found no room since the last call; if so, the next prepare() makes it. Waits.
     [[nodiscard]] Result<bool> grow();
     /// A measure of the light in the volume; waits.
-    [[nodiscard]] Result<double> total_radiance();
+    [[nodiscard]] Result<double> total_radiance() const;
     /// Whether any surface emits light.
     [[nodiscard]] bool emits() const { return emits_; }
     [[nodiscard]] const passes::VolumeInputs& inputs() const { return inputs_; }
@@ -68,39 +70,75 @@ public:
     /// Edge of the finest voxels in metres.
     [[nodiscard]] float voxel_m() const { return data_.voxel_m; }
 
+    /// The voxelized surfaces of a cascade: VoxelHeader and numbers, voxels, records.
+    struct Surfaces {
+        shading::VoxelGrid grid;
+        const gpu::Buffer &numbers, &cells, &records;
+    };
+    [[nodiscard]] Surfaces surfaces(int cascade) const;
+    /// How often a cascade's surfaces were voxelized so far, by what that took.
+    struct Work {
+        int all = 0;      ///< everything that does not move
+        int entered = 0;  ///< voxels that entered a cascade
+        int moving = 0;   ///< what moves
+    };
+    [[nodiscard]] const Work& work() const { return work_; }
+
 private:
     struct Cascade {
         gpu::Buffer numbers, cells, records, tiles, levels, illuminance, gathered;
         gpu::Buffer shown_numbers, shown_cells, shown_levels;
+        gpu::Buffer still_numbers, still_cells, still_records;  ///< surfaces that never moved: VoxelHeader, …
         shading::InjectConstants constants{};
-        passes::VoxelizeInputs voxelize;
+        passes::VoxelizeInputs still, entered, moving;
+        glm::ivec3 base{0};     ///< where the cascade lay when it was voxelized
+        bool known = false;     ///< the surfaces that never moved are voxelized, at `base`:
+        bool kept = false;      ///< they are in still_numbers, …
+        bool in_place = false;  ///< they alone are in numbers, …
+    };
+    /// Steps in the life of one cascade's surfaces.
+    struct SurfaceSteps {
+        explicit SurfaceSteps(gpu::Device& device) : all(device), keep(device), enter(device), move(device) {}
+        graph::Executor all, keep, enter, move;
     };
     struct Steps {
-        explicit Steps(gpu::Device& device) : surfaces(device), lights(device), emission(device), reflect(device), bounce(device) {}
-        graph::Executor surfaces, lights, emission, reflect, bounce;
+        explicit Steps(gpu::Device& device)
+            : keep_shown(device), lights(device), emission(device), reflect(device), bounce(device) {}
+        graph::Executor keep_shown, lights, emission, reflect, bounce;
+        std::vector<std::unique_ptr<SurfaceSteps>> surfaces;  // of each cascade
     };
+    struct VolumeGraph;
     [[nodiscard]] Result<void> check_size(const VoxelSettings& settings) const;
     [[nodiscard]] Result<void> make_texture(VkExtent3D extent);
     [[nodiscard]] Result<void> make_buffers();
+    [[nodiscard]] Result<void> make_still_buffers();
     [[nodiscard]] Result<void> show(graph::Executor& step, gpu::Commands& commands, gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> place(const GpuScene& scene, glm::vec3 eye);
     [[nodiscard]] Result<void> list_triangles(const GpuScene& scene);
+    [[nodiscard]] Result<void> record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, std::size_t cascade);
+    void forget_surfaces();
+    [[nodiscard]] VolumeGraph begin_graph(const Source& source) const;
+    [[nodiscard]] Result<void> finish_graph(graph::Executor& executor, VolumeGraph& volume, const Source& source) const;
+    [[nodiscard]] Result<void> build_surface_graphs(const Source& source);
     [[nodiscard]] Result<void> build_graphs(const Source& source);
 
     gpu::Device& device_;
     gpu::Pipelines& pipelines_;
     std::unique_ptr<Steps> steps_;
     VoxelSettings settings_;
-    shading::VolumeData data_{};
+    shading::VolumeData data_{}, shown_{}, current_{};  // where cascades lie; as the texture shows it; as uploaded
     std::uint32_t record_capacity_ = 0, tile_capacity_ = 0;
     bool remake_ = true, emits_ = false, passes_known_ = false;
     bool outdated_ = false;  // the texture shows surfaces as they were before they were voxelized anew
-    std::uint64_t placement_revision_ = 0, texture_revision_ = 0, listed_revision_ = ~0ull;
+    std::uint64_t placement_revision_ = 0, texture_revision_ = 0, listed_revision_ = ~0ull, loaded_revision_ = ~0ull;
+    Work work_;
     std::vector<std::unique_ptr<Cascade>> cascades_;
-    GrowingBuffer triangle_ranges_{"triangle ranges", 0};
-    gpu::Buffer data_buffer_;
+    std::vector<passes::TriangleRange> still_, moving_;
+    GrowingBuffer still_ranges_{"triangle ranges", 0}, moving_ranges_{"moving triangle ranges", 0};
+    float emission_unit_ = 1;
+    gpu::Buffer data_buffer_, shown_buffer_;
     gpu::Image faces_;
-    passes::VolumeInputs inputs_;
+    passes::VolumeInputs inputs_, shown_inputs_;  // shown_inputs_: for light gathered while the texture is made anew
 };
 
 }  // namespace heliodon::realtime

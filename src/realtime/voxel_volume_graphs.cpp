@@ -4,73 +4,123 @@
 namespace heliodon::realtime {
 namespace {
 
+/// Copies surfaces to where they are carried from.
+void add_keep_still(graph::Graph& graph, const passes::VoxelSurfaces& surfaces, const passes::CarriedSurfaces& still) {
+    graph.add_pass(
+        "voxelize keep", graph::PassKind::transfer,
+        [&](graph::PassBuilder& pass) {
+            for (const graph::BufferHandle from : {surfaces.numbers, surfaces.cells, surfaces.records}) pass.read(from, graph::Usage::transfer_read);
+            for (const graph::BufferHandle to : {still.numbers, still.cells, still.records}) pass.write(to, graph::Usage::transfer_write);
+        },
+        [surfaces, still](graph::PassContext& context) {
+            const auto copy = [&](graph::BufferHandle from, graph::BufferHandle to) {
+                context.commands.copy(context.buffer(from), context.buffer(to), context.buffer(to).size());
+            };
+            copy(surfaces.numbers, still.numbers);
+            copy(surfaces.cells, still.cells);
+            copy(surfaces.records, still.records);
+        });
+}
+
+}  // namespace
+
 /// A graph in which the volume's resources are known; every graph imports them in the same order.
-struct VolumeGraph {
+struct VoxelVolume::VolumeGraph {
     graph::Graph graph;
     graph::ImageHandle faces;
     passes::ShadowMaps shadow_maps;
     std::vector<passes::InjectCascade> cascades;
+    std::vector<passes::CarriedSurfaces> still;  ///< of each cascade, if they are kept
 };
 
-}  // namespace
+VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
+    VolumeGraph volume;
+    volume.faces = volume.graph.import_image(faces_.description());
+    volume.shadow_maps = {volume.graph.import_image(source.shadow_depth.description()),
+                          volume.graph.import_image(source.shadow_slope.description())};
+    for (const auto& cascade : cascades_) {
+        const auto import = [&](const gpu::Buffer& buffer) { return volume.graph.import_buffer(buffer.description()); };
+        passes::InjectCascade one;
+        one.constants = &cascade->constants;
+        one.outdated = &outdated_;
+        one.shown = {import(cascade->shown_numbers), import(cascade->shown_cells), import(cascade->shown_levels)};
+        one.surfaces = {import(cascade->numbers), import(cascade->cells), import(cascade->records), import(cascade->tiles),
+                        import(cascade->levels), data_.size, record_capacity_, tile_capacity_};
+        one.illuminance = import(cascade->illuminance);
+        one.gathered = import(cascade->gathered);
+        volume.cascades.push_back(one);
+        if (cascade->still_records)
+            volume.still.push_back({import(cascade->still_numbers), import(cascade->still_cells), import(cascade->still_records)});
+    }
+    return volume;
+}
+
+Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& volume, const Source& source) const {
+    volume.graph.export_image(volume.faces, graph::Usage::sampled);
+    for (const auto& one : volume.cascades)
+        for (const graph::BufferHandle buffer : {one.surfaces.numbers, one.surfaces.cells, one.surfaces.records,
+                                                 one.surfaces.tiles, one.surfaces.levels, one.illuminance, one.gathered,
+                                                 one.shown.numbers, one.shown.cells, one.shown.levels})
+            volume.graph.export_buffer(buffer);
+    for (const passes::CarriedSurfaces& still : volume.still)
+        for (const graph::BufferHandle buffer : {still.numbers, still.cells, still.records}) volume.graph.export_buffer(buffer);
+    if (auto done = executor.set_graph(volume.graph); !done) return done;
+    executor.bind(volume.faces, faces_);
+    executor.bind(volume.shadow_maps.depth, source.shadow_depth);
+    executor.bind(volume.shadow_maps.slope, source.shadow_slope);
+    for (std::size_t i = 0; i < cascades_.size(); ++i) {
+        const Cascade& cascade = *cascades_[i];
+        const passes::InjectCascade& one = volume.cascades[i];
+        executor.bind(one.surfaces.numbers, cascade.numbers);
+        executor.bind(one.surfaces.cells, cascade.cells);
+        executor.bind(one.surfaces.records, cascade.records);
+        executor.bind(one.surfaces.tiles, cascade.tiles);
+        executor.bind(one.surfaces.levels, cascade.levels);
+        executor.bind(one.shown.numbers, cascade.shown_numbers);
+        executor.bind(one.shown.cells, cascade.shown_cells);
+        executor.bind(one.shown.levels, cascade.shown_levels);
+        executor.bind(one.illuminance, cascade.illuminance);
+        executor.bind(one.gathered, cascade.gathered);
+        if (volume.still.empty()) continue;
+        executor.bind(volume.still[i].numbers, cascade.still_numbers);
+        executor.bind(volume.still[i].cells, cascade.still_cells);
+        executor.bind(volume.still[i].records, cascade.still_records);
+    }
+    return {};
+}
+
+Result<void> VoxelVolume::build_surface_graphs(const Source& source) {
+    const auto voxelize = settings_.raster ? passes::add_voxelize_raster : passes::add_voxelize;
+    VolumeGraph shown = begin_graph(source);
+    for (const auto& cascade : shown.cascades) passes::add_keep_shown(shown.graph, cascade);
+    if (auto done = finish_graph(steps_->keep_shown, shown, source); !done) return done;
+
+    steps_->surfaces.clear();
+    for (std::size_t i = 0; i < cascades_.size(); ++i) {
+        SurfaceSteps& steps = *steps_->surfaces.emplace_back(std::make_unique<SurfaceSteps>(device_));
+        const auto build = [&](graph::Executor& executor, const passes::VoxelizeInputs& inputs, bool carry) -> Result<void> {
+            VolumeGraph volume = begin_graph(source);
+            passes::VoxelSurfaces surfaces = volume.cascades[i].surfaces;
+            if (carry) surfaces.carried = volume.still[i];
+            if (auto done = voxelize(volume.graph, pipelines_, source.inputs, inputs, surfaces); !done) return done;
+            return finish_graph(executor, volume, source);
+        };
+        if (auto done = build(steps.all, cascades_[i]->still, false); !done) return done;
+        if (!cascades_[i]->still_records) continue;
+        VolumeGraph keep = begin_graph(source);
+        add_keep_still(keep.graph, keep.cascades[i].surfaces, keep.still[i]);
+        if (auto done = finish_graph(steps.keep, keep, source); !done) return done;
+        if (auto done = build(steps.enter, cascades_[i]->entered, true); !done) return done;
+        if (auto done = build(steps.move, cascades_[i]->moving, true); !done) return done;
+    }
+    return {};
+}
 
 Result<void> VoxelVolume::build_graphs(const Source& source) {
-    const auto begin = [&] {
-        VolumeGraph volume;
-        volume.faces = volume.graph.import_image(faces_.description());
-        volume.shadow_maps = {volume.graph.import_image(source.shadow_depth.description()),
-                              volume.graph.import_image(source.shadow_slope.description())};
-        for (const auto& cascade : cascades_) {
-            const auto import = [&](const gpu::Buffer& buffer) { return volume.graph.import_buffer(buffer.description()); };
-            passes::InjectCascade one;
-            one.constants = &cascade->constants;
-            one.outdated = &outdated_;
-            one.shown = {import(cascade->shown_numbers), import(cascade->shown_cells), import(cascade->shown_levels)};
-            one.surfaces = {import(cascade->numbers), import(cascade->cells), import(cascade->records), import(cascade->tiles),
-                            import(cascade->levels), data_.size, record_capacity_, tile_capacity_};
-            one.illuminance = import(cascade->illuminance);
-            one.gathered = import(cascade->gathered);
-            volume.cascades.push_back(one);
-        }
-        return volume;
-    };
-    const auto finish = [&](graph::Executor& executor, VolumeGraph& volume) -> Result<void> {
-        volume.graph.export_image(volume.faces, graph::Usage::sampled);
-        for (const auto& one : volume.cascades)
-            for (const graph::BufferHandle buffer : {one.surfaces.numbers, one.surfaces.cells, one.surfaces.records,
-                                                     one.surfaces.tiles, one.surfaces.levels, one.illuminance, one.gathered,
-                                                     one.shown.numbers, one.shown.cells, one.shown.levels})
-                volume.graph.export_buffer(buffer);
-        if (auto done = executor.set_graph(volume.graph); !done) return done;
-        executor.bind(volume.faces, faces_);
-        executor.bind(volume.shadow_maps.depth, source.shadow_depth);
-        executor.bind(volume.shadow_maps.slope, source.shadow_slope);
-        for (std::size_t i = 0; i < cascades_.size(); ++i) {
-            const Cascade& cascade = *cascades_[i];
-            const passes::InjectCascade& one = volume.cascades[i];
-            executor.bind(one.surfaces.numbers, cascade.numbers);
-            executor.bind(one.surfaces.cells, cascade.cells);
-            executor.bind(one.surfaces.records, cascade.records);
-            executor.bind(one.surfaces.tiles, cascade.tiles);
-            executor.bind(one.surfaces.levels, cascade.levels);
-            executor.bind(one.shown.numbers, cascade.shown_numbers);
-            executor.bind(one.shown.cells, cascade.shown_cells);
-            executor.bind(one.shown.levels, cascade.shown_levels);
-            executor.bind(one.illuminance, cascade.illuminance);
-            executor.bind(one.gathered, cascade.gathered);
-        }
-        return {};
-    };
+    if (auto done = build_surface_graphs(source); !done) return done;
+    const auto begin = [&] { return begin_graph(source); };
+    const auto finish = [&](graph::Executor& executor, VolumeGraph& volume) { return finish_graph(executor, volume, source); };
     const std::size_t last = cascades_.size() - 1;
-
-    VolumeGraph surfaces = begin();
-    for (std::size_t i = 0; i <= last; ++i) {
-        passes::add_keep_shown(surfaces.graph, surfaces.cascades[i]);
-        const auto voxelize = settings_.raster ? passes::add_voxelize_raster : passes::add_voxelize;
-        if (auto done = voxelize(surfaces.graph, pipelines_, source.inputs, cascades_[i]->voxelize, surfaces.cascades[i].surfaces); !done)
-            return done;
-    }
-    if (auto done = finish(steps_->surfaces, surfaces); !done) return done;
 
     VolumeGraph lights = begin();
     for (const auto& cascade : lights.cascades)
@@ -102,7 +152,7 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
 
     VolumeGraph bounce = begin();
     for (const auto& cascade : bounce.cascades)
-        if (auto done = passes::add_gather(bounce.graph, pipelines_, source.inputs, inputs_, cascade, bounce.faces); !done) return done;
+        if (auto done = passes::add_gather(bounce.graph, pipelines_, source.inputs, shown_inputs_, cascade, bounce.faces); !done) return done;
     if (auto done = add_volume(bounce, false); !done) return done;
     if (auto done = finish(steps_->bounce, bounce); !done) return done;
     passes_known_ = true;

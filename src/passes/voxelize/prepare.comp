@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Clears the records, and lists on every coarser level the voxels that hold anything.
+// Clears the records or fills those that are carried from others, and lists on every coarser level the voxels that
+// hold anything.
 #include "passes/voxelize/linear_groups.glsl"
 
 layout(local_size_x = 64) in;
@@ -9,6 +10,9 @@ layout(set = 0, binding = 17, std430) readonly buffer Cells { uint record_cell[]
 layout(set = 0, binding = 18, std430) writeonly buffer Records { uint records[]; };
 layout(set = 0, binding = 20, std430) buffer Levels { VoxelLevelsHeader levels; uint level_voxel[]; };
 layout(set = 0, binding = 21, std430) buffer Listed { uint listed[]; };  // a bit a coarse voxel, level after level
+layout(set = 0, binding = 22, std430) readonly buffer Sources { uint source[]; };  // by record: 0, or 1 + the carried one
+layout(set = 0, binding = 23, std430) readonly buffer Carried { uint carried_records[]; };
+layout(constant_id = 0) const bool carries = false;
 layout(push_constant) uniform Push { VoxelizeConstants push; };
 
 void append(uint level, uint voxel) {
@@ -24,7 +28,10 @@ void append(uint level, uint voxel) {
 void main() {
     const uint invocation = linear_invocation();
     if (invocation >= header.record_count * voxel_faces) return;
-    for (uint i = 0u; i < voxel_field_count; ++i) records[invocation * voxel_field_count + i] = 0u;
+    const uint from = carries ? source[invocation / voxel_faces] : 0u;
+    const uint first = ((from - 1u) * voxel_faces + invocation % voxel_faces) * voxel_field_count;
+    for (uint i = 0u; i < voxel_field_count; ++i)
+        records[invocation * voxel_field_count + i] = from != 0u ? carried_records[first + i] : 0u;
     if (invocation % voxel_faces != 0u) return;
     const uint cell = record_cell[invocation / voxel_faces];
     uvec3 voxel = uvec3(cell % push.grid.size, cell / push.grid.size % push.grid.size, cell / (push.grid.size * push.grid.size));

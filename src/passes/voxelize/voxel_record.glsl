@@ -42,7 +42,7 @@ VoxelFace voxel_face(VoxelGrid grid, uint record, uint face) {
     // the voxel's diagonal, and the fixed point places it with a finite step: step over both.
     const float under = 0.5f * sqrt(3.0f) * (sqrt(max(0.0f, 1.0f - straight * straight)) + 4.0f / float(records[first]));
     const vec3 within = record_vector(first + voxel_field_position) * inverse;
-    result.position = grid.origin + grid.voxel_m * (vec3(record_voxel(record, grid.size)) + within + result.normal * under);
+    result.position = grid.origin + grid.voxel_m * (vec3(ivec3(record_voxel(record, grid.size)) + grid.base) + within + result.normal * under);
     return result;
 }
 

@@ -6,13 +6,17 @@ SHADING_BEGIN
 
 /// A cube of size³ voxels: one cascade of the volume.
 struct VoxelGrid {
-    vec3 origin;          // world position of the corner of voxel (0, 0, 0)
+    vec3 origin;          // world position of the lattice that the voxels are part of
     float voxel_m;        // edge of a voxel
     uint size;            // voxels an edge, a power of two
     float emission_unit;  // cd/m² that fixed-point emission 1 stands for
     float radiance_unit;  // cd/m² that 1 in the volume's textures stands for
+    float snap;           // corners of triangles are rounded to multiples of it (voxels); 0: not at all
+    ivec3 base;           // voxel (0, 0, 0) is voxel `base` of the lattice
     uint padding;
 };
+// Sums of a grid that moves by whole voxels stay the same bit for bit where corners in the lattice and in the grid are
+// exact alike: multiples of `snap`, as fine as single precision has them everywhere in the lattice.
 
 SHADING_CONST uint most_cascades = 8u;
 SHADING_CONST uint most_coarse_levels = 9u;  // 512 voxels an edge have levels 1 to 9
@@ -27,6 +31,10 @@ struct VoxelHeader {
     uvec4 tile_groups;   // VkDispatchIndirectCommand: one workgroup a tile
     uvec4 record_groups; // VkDispatchIndirectCommand: groups of 64 invocations, one a record
     uvec4 face_groups;   // VkDispatchIndirectCommand: groups of 64 invocations, one a record's face
+    uint carried_without_room;  // voxels that had found no room where the carried ones come from
+    uint carried_tile_demand;   // the most tiles that were wanted there
+    uint padding0;
+    uint padding1;
 };
 
 SHADING_CONST uint voxel_without_room = 0xffffffffu;  // occupied, but there are no more records
@@ -75,6 +83,10 @@ struct VoxelizeConstants {
     uint tile_capacity;
     uint over_tiles;    // compute: the dispatch takes the tiles of large triangles, not all triangles
     float dilation_px;  // raster: half a pixel and what rounding can take, where the hardware does not find all pixels
+    uint padding0;
+    uint padding1;
+    ivec3 shift;        // voxel v of this grid was voxel v + shift of the grid that voxels are carried from
+    uint entered_only;  // triangles count in voxels alone that the other grid did not have
 };
 
 // A record has six faces (+x −x +y −y +z −z). A surface counts for the faces that it is seen from, with the area

@@ -19,7 +19,8 @@ struct VoxelSurface {
     float opacity;  // there at all
 };
 
-TriangleHit hit_at(VoxelTriangle triangle, vec3 position) {
+/// At a point of the voxel. Differences first: they are exact, wherever the grid lies.
+TriangleHit hit_at(VoxelTriangle triangle, ivec3 voxel, vec3 within) {
     TriangleHit hit;
     hit.index = triangle.index;
     hit.p0 = triangle.p0;
@@ -27,7 +28,7 @@ TriangleHit hit_at(VoxelTriangle triangle, vec3 position) {
     hit.edge2 = triangle.p2 - triangle.p0;
     hit.normal = cross(hit.edge1, hit.edge2);
     hit.t = 0.0f;
-    const vec3 from = position - triangle.p0;
+    const vec3 from = (vec3(voxel) - triangle.p0) + within;
     const float inverse = 1.0f / dot(hit.normal, hit.normal);
     const float u = clamp(dot(cross(from, hit.edge2), hit.normal) * inverse, 0.0f, 1.0f);
     const float v = clamp(dot(cross(hit.edge1, from), hit.normal) * inverse, 0.0f, 1.0f - u);
@@ -51,9 +52,8 @@ void set_voxel_gradients(GeometryData geometry, TextureRef use, TriangleHit hit)
     texture_gradient_y = uv_matrix * vec2(0.0f, 1.0f / max(length(dp_dv), 1.0e-20f));
 }
 
-/// `position`: in the grid.
-VoxelSurface surface_at(VoxelTriangle triangle, GeometryData geometry, MaterialData material, vec3 position) {
-    const TriangleHit hit = hit_at(triangle, position);
+VoxelSurface surface_at(VoxelTriangle triangle, GeometryData geometry, MaterialData material, ivec3 voxel, vec3 within) {
+    const TriangleHit hit = hit_at(triangle, voxel, within);
     set_voxel_gradients(geometry, footprint_texture(material), hit);
     const MaterialPoint point = material_at(material, interpolate_texcoord(geometry, 0u, hit), interpolate_texcoord(geometry, 1u, hit),
                                             vertex_color_at(geometry, hit), false);
@@ -100,13 +100,15 @@ void sum(VoxelTriangle triangle, ivec3 voxel) {
     const InstanceData instance = instance_table[triangle.instance];
     const GeometryData geometry = geometry_table[instance.geometry];
     const MaterialData material = material_table[instance.material];
-    const VoxelSurface surface = surface_at(triangle, geometry, material, vec3(voxel) + part.xyz);
+    const VoxelSurface surface = surface_at(triangle, geometry, material, voxel, part.xyz);
     if (!(surface.opacity > 0.0f)) return;
     const bool two_sided = (material.flags & material_flag_two_sided) != 0u;
     const bool closed = (geometry.format & geometry_format_closed) != 0u;
     // Up or down at random, by what is rounded alone: pieces smaller than the fixed point's step count on average,
     // and every run gives the same sums.
-    const float rounding = unit_interval(pcg_hash(place + pcg_hash(triangle.primitive + pcg_hash(triangle.instance))));
+    const uvec3 in_lattice = uvec3(voxel + push.grid.base);
+    const uint of_triangle = pcg_hash(triangle.primitive + pcg_hash(triangle.instance));
+    const float rounding = unit_interval(pcg_hash(in_lattice.x + pcg_hash(in_lattice.y + pcg_hash(in_lattice.z + of_triangle))));
     // The faces that see a side of it, a bit each: a loop over them alone keeps neighbouring invocations together.
     uint faces = 0u;
     for (uint axis = 0u; axis < 3u; ++axis) {

@@ -20,11 +20,19 @@ struct VoxelTriangle {
 
 vec3 grid_position(InstanceData instance, GeometryData geometry, uint vertex) {
     const vec3 world = vec3(instance.object_to_world * vec4(fetch_vec3(geometry.position_offset, vertex), 1.0f));
-    return (world - push.grid.origin) / push.grid.voxel_m;
+    vec3 position = (world - push.grid.origin) / push.grid.voxel_m;
+    if (push.grid.snap > 0.0f) position = floor(position / push.grid.snap + 0.5f) * push.grid.snap;
+    return position - vec3(push.grid.base);
 }
 
-/// False where it has no area or lies outside the grid. Surfaces in the plane between two voxels belong to the upper
-/// one, those in the grid's last plane to the last voxel.
+/// Whether the voxels from `low` to `high` were carried from another grid with all that triangles bring.
+bool carried(ivec3 low, ivec3 high) {
+    return push.entered_only != 0u && all(greaterThanEqual(low + push.shift, ivec3(0))) &&
+           all(lessThan(high + push.shift, ivec3(int(push.grid.size))));
+}
+
+/// False where it has no area, lies outside the grid or was carried. Surfaces in the plane between two voxels belong to
+/// the upper one; those in the last plane of a grid that does not move, to the last voxel.
 bool triangle_in_grid(vec3 p0, vec3 p1, vec3 p2, float determinant_sign, inout VoxelTriangle triangle) {
     triangle.p0 = p0;
     triangle.p1 = p1;
@@ -33,8 +41,10 @@ bool triangle_in_grid(vec3 p0, vec3 p1, vec3 p2, float determinant_sign, inout V
     const vec3 high = max(p0, max(p1, p2));
     const float size = float(push.grid.size);
     if (!(all(greaterThanEqual(high, vec3(0.0f))) && all(lessThanEqual(low, vec3(size))))) return false;
+    if (push.grid.snap > 0.0f && any(equal(low, vec3(size)))) return false;
     triangle.low = ivec3(clamp(floor(low), vec3(0.0f), vec3(size - 1.0f)));
     triangle.high = ivec3(clamp(floor(high), vec3(0.0f), vec3(size - 1.0f)));
+    if (carried(triangle.low, triangle.high)) return false;
     const vec3 normal = cross(p1 - p0, p2 - p0);
     const float twice_area = length(normal);
     if (!(twice_area > 0.0f)) return false;
@@ -98,8 +108,9 @@ bool next_voxel(VoxelTriangle triangle, inout ivec3 voxel) {
 }
 
 /// Whether the triangle's plane passes a voxel no farther from its centre than the voxel's half diagonal along the
-/// normal; a little farther, for rounding.
+/// normal; a little farther, for rounding. Not in voxels that are carried.
 bool near_plane(VoxelTriangle triangle, ivec3 voxel) {
+    if (carried(voxel, voxel)) return false;
     const float reach = 0.5f * (abs(triangle.normal.x) + abs(triangle.normal.y) + abs(triangle.normal.z));
     return abs(dot(triangle.normal, vec3(voxel) + 0.5f - triangle.p0)) <= reach + 1.0e-3f;
 }

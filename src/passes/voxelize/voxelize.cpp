@@ -36,11 +36,12 @@ struct Voxelization {
     const SceneInputs& scene;
     const VoxelizeInputs& inputs;
     VoxelSurfaces surfaces;
-    graph::BufferHandle listed, tile_arguments;
+    graph::BufferHandle listed, tile_arguments, sources;
 
     [[nodiscard]] VoxelizeConstants constants(bool over_tiles) const {
         return {inputs.grid,           inputs.range_count, inputs.triangle_count, surfaces.record_capacity,
-                surfaces.tile_capacity, over_tiles ? 1u : 0u,  0.0f};
+                surfaces.tile_capacity, over_tiles ? 1u : 0u,  0.0f, 0, 0, inputs.shift,
+                inputs.entered_only ? 1u : 0u};
     }
     using NumberedBuffers = std::vector<std::pair<std::uint32_t, graph::BufferHandle>>;
     [[nodiscard]] std::vector<gpu::Binding> bindings(const gpu::Pipeline& pipeline, const NumberedBuffers& buffers,
@@ -58,12 +59,13 @@ struct Voxelization {
         VkDeviceSize indirect_offset = 0;
         bool once = false;  ///< a single workgroup
         NumberedBuffers buffers;
+        gpu::Specialization constants{};
     };
     Result<void> add(const Step& step, const std::function<void(PassBuilder&)>& setup) const;
 };
 
 Result<void> Voxelization::add(const Step& step, const std::function<void(PassBuilder&)>& setup) const {
-    auto pipeline = pipelines.compute(step.shader);
+    auto pipeline = pipelines.compute(step.shader, step.constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         step.name, PassKind::compute,
@@ -91,13 +93,29 @@ void add_clear(const Voxelization& self) {
             pass.write(self.surfaces.numbers, Usage::transfer_write);
             pass.write(self.surfaces.levels, Usage::transfer_write);
             pass.write(self.listed, Usage::transfer_write);
+            if (self.sources) pass.write(self.sources, Usage::transfer_write);
         },
         [self](PassContext& context) {
             const VkDeviceSize voxels = VkDeviceSize{self.surfaces.size} * self.surfaces.size * self.surfaces.size;
             context.commands.fill(context.buffer(self.surfaces.numbers), 0, 0, sizeof(shading::VoxelHeader) + voxels * word_bytes);
             context.commands.fill(context.buffer(self.surfaces.levels), 0, 0, sizeof(shading::VoxelLevelsHeader));
             context.commands.fill(context.buffer(self.listed), 0);
+            if (self.sources) context.commands.fill(context.buffer(self.sources), 0);
         });
+}
+
+Result<void> add_carry(const Voxelization& self) {
+    const VoxelSurfaces& s = self.surfaces;
+    return self.add({.name = "voxelize carry", .shader = "passes/voxelize/carry.comp", .indirect = s.carried.numbers,
+                     .indirect_offset = offsetof(shading::VoxelHeader, record_groups),
+                     .buffers = {{16, s.numbers}, {17, s.cells}, {18, self.sources}, {19, s.carried.numbers}, {20, s.carried.cells}}},
+                    [&](PassBuilder& pass) {
+                        pass.read_write(s.numbers, Usage::storage_read_write);
+                        pass.write(s.cells, Usage::storage_write);
+                        pass.read_write(self.sources, Usage::storage_read_write);
+                        pass.read(s.carried.numbers, Usage::storage_read);
+                        pass.read(s.carried.cells, Usage::storage_read);
+                    });
 }
 
 Result<void> add_arguments(const Voxelization& self, const char* name) {
@@ -115,7 +133,7 @@ Result<void> add_mark(const Voxelization& self) {
                             .buffers = {{16, s.numbers}, {17, s.cells}, {19, s.tiles}}};
     const auto uses = [&](PassBuilder& pass) {
         pass.read_write(s.numbers, Usage::storage_read_write);
-        pass.write(s.cells, Usage::storage_write);
+        pass.read_write(s.cells, Usage::storage_read_write);  // those that are carried stay
         pass.write(s.tiles, Usage::storage_write);
     };
     if (auto done = self.add(step, uses); !done) return done;
@@ -134,15 +152,22 @@ Result<void> add_mark(const Voxelization& self) {
 
 Result<void> add_prepare(const Voxelization& self) {
     const VoxelSurfaces& s = self.surfaces;
+    const bool carries = bool(s.carried.records);
+    // Without anything to carry nothing reads the last two.
     return self.add({.name = "voxelize prepare", .shader = "passes/voxelize/prepare.comp", .indirect = s.numbers,
                      .indirect_offset = offsetof(shading::VoxelHeader, face_groups),
-                     .buffers = {{16, s.numbers}, {17, s.cells}, {18, s.records}, {20, s.levels}, {21, self.listed}}},
+                     .buffers = {{16, s.numbers}, {17, s.cells}, {18, s.records}, {20, s.levels}, {21, self.listed},
+                                 {22, carries ? self.sources : s.cells}, {23, carries ? s.carried.records : s.cells}},
+                     .constants = {{0, carries ? 1u : 0u}}},
                     [&](PassBuilder& pass) {
                         pass.read(s.numbers, Usage::storage_read);
                         pass.read(s.cells, Usage::storage_read);
                         pass.write(s.records, Usage::storage_write);
                         pass.read_write(s.levels, Usage::storage_read_write);
                         pass.read_write(self.listed, Usage::storage_read_write);
+                        if (!carries) return;
+                        pass.read(self.sources, Usage::storage_read);
+                        pass.read(s.carried.records, Usage::storage_read);
                     });
 }
 
@@ -204,13 +229,16 @@ Result<void> add_raster(const Voxelization& self, const char* name, const char* 
     return {};
 }
 
-/// The buffers that no one else sees, and the clearing of all that counts.
-Voxelization begin(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VoxelizeInputs& inputs,
-                   const VoxelSurfaces& surfaces) {
-    Voxelization self{graph, pipelines, scene, inputs, surfaces, {}, {}};
+/// The buffers that no one else sees, the clearing of all that counts, and what is carried.
+Result<Voxelization> begin(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VoxelizeInputs& inputs,
+                           const VoxelSurfaces& surfaces) {
+    Voxelization self{graph, pipelines, scene, inputs, surfaces, {}, {}, {}};
     self.listed = graph.create_buffer({"listed coarse voxels", listed_words(surfaces.size) * word_bytes});
     self.tile_arguments = graph.create_buffer({"voxel tile arguments", sizeof(glm::uvec4)});
+    if (surfaces.carried.records) self.sources = graph.create_buffer({"sources of voxels", surfaces.record_capacity * word_bytes});
     add_clear(self);
+    if (surfaces.carried.records)
+        if (auto done = add_carry(self); !done) return tl::unexpected(done.error());
     return self;
 }
 
@@ -230,19 +258,22 @@ VoxelBufferSizes voxel_buffer_sizes(std::uint32_t size, std::uint32_t record_cap
 
 Result<void> add_voxelize(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VoxelizeInputs& inputs,
                           const VoxelSurfaces& surfaces) {
-    const Voxelization self = begin(graph, pipelines, scene, inputs, surfaces);
-    if (auto done = add_mark(self); !done) return done;
-    if (auto done = add_prepare(self); !done) return done;
-    return add_sum(self);
+    const auto self = begin(graph, pipelines, scene, inputs, surfaces);
+    if (!self) return tl::unexpected(self.error());
+    if (auto done = add_mark(*self); !done) return done;
+    if (auto done = add_prepare(*self); !done) return done;
+    return add_sum(*self);
 }
 
 Result<void> add_voxelize_raster(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                  const VoxelizeInputs& inputs, const VoxelSurfaces& surfaces) {
-    const Voxelization self = begin(graph, pipelines, scene, inputs, surfaces);
+    const auto begun = begin(graph, pipelines, scene, inputs, surfaces);
+    if (!begun) return tl::unexpected(begun.error());
+    const Voxelization& self = *begun;
     auto done = add_raster(self, "voxelize mark raster", "passes/voxelize/raster_mark.frag",
                            {{16, surfaces.numbers}, {17, surfaces.cells}}, [&](PassBuilder& pass) {
                                pass.read_write(surfaces.numbers, Usage::storage_read_write);
-                               pass.write(surfaces.cells, Usage::storage_write);
+                               pass.read_write(surfaces.cells, Usage::storage_read_write);
                            });
     if (!done) return done;
     if (done = add_arguments(self, "voxelize arguments"); !done) return done;

@@ -18,6 +18,14 @@ struct VoxelizeInputs {
     const gpu::Buffer* triangle_ranges = nullptr;  ///< TriangleRange
     std::uint32_t range_count = 0, triangle_count = 0;
     const gpu::Buffer* shading_tables = nullptr;
+    glm::ivec3 shift{0};        ///< voxel v of the grid was voxel v + shift of the grid that VoxelSurfaces::carried fill
+    bool entered_only = false;  ///< triangles count in voxels alone that the other grid did not have
+};
+
+/// Surfaces that were voxelized before: of a grid as large, with as many records.
+struct CarriedSurfaces {
+    graph::BufferHandle numbers;  ///< VoxelHeader
+    graph::BufferHandle cells, records;
 };
 
 /// One cascade's surfaces. Sizes follow from voxel_buffer_sizes().
@@ -29,6 +37,7 @@ struct VoxelSurfaces {
     graph::BufferHandle levels;   ///< VoxelLevelsHeader and the lists
     std::uint32_t size = 0;       ///< voxels an edge
     std::uint32_t record_capacity = 0, tile_capacity = 0;
+    CarriedSurfaces carried{};  ///< if any: triangles are added to them
 };
 struct VoxelBufferSizes {
     VkDeviceSize numbers = 0, cells = 0, records = 0, tiles = 0, levels = 0;
@@ -36,7 +45,8 @@ struct VoxelBufferSizes {
 [[nodiscard]] VoxelBufferSizes voxel_buffer_sizes(std::uint32_t size, std::uint32_t record_capacity, std::uint32_t tile_capacity);
 
 /// Voxelizes every triangle by compute. Every voxel that a triangle passes through is found (a closed surface stays
-/// closed) and the exact part of the triangle in it counts; sums do not depend on the order of threads.
+/// closed) and the exact part of the triangle in it counts; sums depend neither on the order of threads nor on which
+/// triangles were voxelized before and carried.
 /// Where a count of the header exceeds its capacity, what found no room is missing, and the demand says how much
 /// is needed.
 [[nodiscard]] Result<void> add_voxelize(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
