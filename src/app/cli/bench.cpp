@@ -100,7 +100,7 @@ Action declare_bench(CLI::App& command) {
     command.add_option("--frames", natus.timing.frames, "Frames to time of each, after warm-up; default 50")
         ->check(check_positive);
     command.add_option("--path-seconds", natus.path_seconds,
-                       "natus: how long to trace the reference for the comparison at equal error; default 60, 0: none")
+                       "natus: how long to trace paths for the comparison at equal error; default 60, 0: none")
         ->check(check_not_negative);
     command.add_option_function<std::string>(
         "--series", [&series = options->series](Text text) { series = read_series(text); },

@@ -1,10 +1,12 @@
 #include "app/cli/bench_equal_error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
+#include <utility>
 
 #include "app/cli/terminal.h"
-#include "core/metrics.h"
+#include "shading/tone.h"
 #include "trace/path_tracer.h"
 
 namespace heliodon::cli {
@@ -46,21 +48,40 @@ private:
     PathOptions options_;
 };
 
-Result<double> relmse(const Image& reference, const Image& test, const Camera& camera) {
-    auto metrics = compare(reference, test, camera.ev100());
-    if (!metrics) return tl::unexpected(metrics.error());
-    return metrics->relmse;
+struct References {
+    Image a, b;
+    float scale = 1;  // of exposure
+};
+
+NoiselessError error_of(const Image& test, const References& references) {
+    constexpr double confidence_95 = 1.96;  // standard deviations
+    constexpr double relmse_floor = 0.01;
+    double sum = 0, squares = 0;
+    const std::size_t count = test.pixels.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const double value = references.scale * test.pixels[i];
+        const double a = references.scale * references.a.pixels[i], b = references.scale * references.b.pixels[i];
+        const double r = (a + b) / 2;
+        const double term = (value - a) * (value - b) / (r * r + relmse_floor);
+        sum += term;
+        squares += term * term;
+    }
+    const double mean = sum / count;
+    return {mean, confidence_95 * std::sqrt(std::max(0.0, squares / count - mean * mean) / count)};
 }
 
-/// Solves E(N) = a/N + b through both measured pictures, and E(N) = the frame's error.
 void solve(EqualError& result) {
-    const auto& [few, many] = result.path;
-    const double a = (few.relmse - many.relmse) / (1.0 / few.samples - 1.0 / many.samples);
-    result.reference_noise = std::max(0.0, many.relmse - a / many.samples);
-    const double own = result.relmse - result.reference_noise;
-    if (!(a > 0) || !(own > 0)) return;
-    result.path_samples = std::max(1.0, a / own);
-    result.path_seconds = *result.path_samples * many.seconds / many.samples;
+    const auto certain = [](const NoiselessError& error) { return error.relmse > error.half_width_95; };
+    if (!certain(result.frame)) return;
+    double sum = 0, weights = 0;
+    for (const EqualError::Measured& path : result.path) {
+        if (!certain(path.error)) return;
+        const double weight = 1 / std::pow(path.samples * std::max(path.error.half_width_95, 1e-12), 2);
+        sum += weight * path.samples * path.error.relmse;
+        weights += weight;
+    }
+    result.path_samples = std::max(1.0, sum / weights / result.frame.relmse);
+    result.path_seconds = *result.path_samples * result.path[1].seconds / result.path[1].samples;
 }
 
 }  // namespace
@@ -68,22 +89,24 @@ void solve(EqualError& result) {
 Result<EqualError> find_equal_error(const Scene& scene, const Camera& camera, const Image& frame, double path_seconds) {
     Tracing tracing(scene, camera, frame.width, frame.height);
     if (auto prepared = tracing.prepare(); !prepared) return tl::unexpected(prepared.error());
-    const auto reference = tracing.render(path_seconds, 1, "path reference");
-    if (!reference) return tl::unexpected(reference.error());
+    constexpr double reference_share = 0.4;  // of the time, for each; a quarter and a sixteenth of it for the others
+    auto first = tracing.render(reference_share * path_seconds, 1, "path reference");
+    if (!first) return tl::unexpected(first.error());
     EqualError result;
     result.threads = std::max(1u, std::thread::hardware_concurrency());
-    result.reference_samples = reference->statistics.samples_per_pixel;
-    result.reference_seconds = reference->statistics.seconds;
-    const auto error = relmse(reference->image, frame, camera);
-    if (!error) return tl::unexpected(error.error());
-    result.relmse = *error;
+    result.reference_samples = first->statistics.samples_per_pixel;
+    auto second = tracing.render(std::nullopt, result.reference_samples, "path reference");
+    if (!second) return tl::unexpected(second.error());
+    result.reference_seconds = first->statistics.seconds + second->statistics.seconds;
+
+    const References references{std::move(first->image), std::move(second->image), shading::exposure_scale(camera.ev100())};
+    result.frame = error_of(frame, references);
     const int few = std::max(1, result.reference_samples / 16), many = std::max(2 * few, result.reference_samples / 4);
     for (int i = 0; i < 2; ++i) {
         const auto traced = tracing.render(std::nullopt, i == 0 ? few : many, "path tracing");
         if (!traced) return tl::unexpected(traced.error());
-        const auto own = relmse(reference->image, traced->image, camera);
-        if (!own) return tl::unexpected(own.error());
-        result.path[i] = {traced->statistics.samples_per_pixel, traced->statistics.seconds, *own};
+        result.path[i] = {traced->statistics.samples_per_pixel, traced->statistics.seconds,
+                          error_of(traced->image, references)};
     }
     solve(result);
     return result;

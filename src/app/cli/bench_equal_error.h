@@ -9,23 +9,29 @@
 
 namespace heliodon::cli {
 
-/// How long the path tracer takes to a picture as far from the truth as one real-time frame is. Both errors are relMSE
-/// against a path-traced reference. The path tracer's falls as a/N + b with its samples N, b being the reference's own
-/// noise; a and b follow from two measured pictures.
+/// relMSE (the mean of d² / (r² + 0.01) on exposed values) without the noise of the reference r: of two independent
+/// path-traced pictures A and B, d² is (test − A)(test − B), whose mean their noise does not change, and r is (A + B) / 2.
+struct NoiselessError {
+    double relmse = 0;
+    double half_width_95 = 0;  ///< as pixels differ
+};
+
+/// How long the path tracer takes to a picture as far from the truth as one real-time frame is. The error of a
+/// picture of N samples is a/N; a is the mean of what two measured pictures say, weighted by how certain they are.
 struct EqualError {
-    int voxels = 0;              ///< of the real-time frame
-    double frame_ms = 0;         ///< mean, on the GPU
-    double relmse = 0;           ///< of that frame
-    int reference_samples = 0;   ///< a pixel
+    int voxels = 0;       ///< of the real-time frame
+    double frame_ms = 0;  ///< mean, on the GPU
+    NoiselessError frame;
+    int reference_samples = 0;  ///< a pixel, of each of the two references
     double reference_seconds = 0;
     struct Measured {
         int samples = 0;
-        double seconds = 0, relmse = 0;
+        double seconds = 0;
+        NoiselessError error;
     };
     std::array<Measured, 2> path;
-    double reference_noise = 0;  ///< b
-    unsigned threads = 0;        ///< that traced
-    /// Nothing where the reference is too noisy to tell. At least one sample a pixel.
+    unsigned threads = 0;  ///< that traced
+    /// Nothing where an error is smaller than it is certain. At least one sample a pixel.
     std::optional<double> path_samples, path_seconds;
 
     [[nodiscard]] std::optional<double> ratio() const {
@@ -33,8 +39,8 @@ struct EqualError {
     }
 };
 
-/// Traces a reference for `path_seconds` and two pictures of a sixteenth and a quarter of its samples, and compares
-/// them and the real-time `frame`, which `voxels` and `frame_ms` are of.
+/// Traces two references and two pictures of a sixteenth and a quarter of their samples in about `path_seconds`, and
+/// compares with them the real-time `frame`, which `voxels` and `frame_ms` are of.
 [[nodiscard]] Result<EqualError> find_equal_error(const Scene& scene, const Camera& camera, const Image& frame,
                                                   double path_seconds);
 

@@ -44,7 +44,7 @@ struct NatusOptions {
     TimingOptions timing;
     std::vector<int> voxels{256, 128, 64};
     std::vector<int> tests{1, 2, 3, 4, 5};
-    double path_seconds = 60;  ///< of the reference; 0: no comparison with the path tracer
+    double path_seconds = 60;  ///< in all; 0: no comparison with the path tracer
 };
 
 struct NatusReport {

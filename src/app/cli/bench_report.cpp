@@ -73,20 +73,24 @@ std::string step_table(const NatusReport& report, const std::vector<int>& grids)
     return text;
 }
 
+std::string error_text(const NoiselessError& error) {
+    return fmt::format("relMSE {:.4g} ± {:.2g}", error.relmse, error.half_width_95);
+}
+
 std::string equal_error_text(const EqualError& e) {
     std::string text = fmt::format(
-        "test 4 with {} voxels: relMSE {:.4g} against a path-traced reference ({} samples a pixel, {:.1f} s)\n",
-        grid(e.voxels), e.relmse, e.reference_samples, e.reference_seconds);
+        "test 4, one frame with {} voxels: {} (95 %), against two path-traced references ({} samples a pixel each, {:.1f} "
+        "s)\n",
+        grid(e.voxels), error_text(e.frame), e.reference_samples, e.reference_seconds);
     for (const EqualError::Measured& path : e.path)
-        text += fmt::format("path tracer, {} threads: {} samples a pixel in {:.2f} s: relMSE {:.4g}\n", e.threads,
-                            path.samples, path.seconds, path.relmse);
+        text += fmt::format("path tracer, {} threads: {} samples a pixel in {:.2f} s: {}\n", e.threads, path.samples,
+                            path.seconds, error_text(path.error));
     if (!e.path_seconds)
-        return text + "the reference is too noisy to tell their equal: trace it for longer (--path-seconds)\n";
-    return text + fmt::format("path tracer to equal error: {:.4g} samples a pixel, {:.4g} s, by a/N + b through both "
-                              "(b, the reference's noise: {:.3g})\n"
+        return text + "an error is smaller than it is certain: trace the references for longer (--path-seconds)\n";
+    return text + fmt::format("path tracer to equal error: {:.4g} samples a pixel, {:.4g} s (1/N from both, by inverse variances)\n"
                               "against {:.3f} ms in real time: {:.4g} times as long (published: 18 minutes against 20 "
                               "ms, {:.0f} times)\n",
-                              *e.path_samples, *e.path_seconds, e.reference_noise, e.frame_ms, *e.ratio(),
+                              *e.path_samples, *e.path_seconds, e.frame_ms, *e.ratio(),
                               published_path_seconds * 1000 / published_frame_ms);
 }
 
@@ -109,17 +113,20 @@ ordered_json timing_json(const NatusTiming& timing) {
 ordered_json equal_error_json(const EqualError& e) {
     ordered_json measured = ordered_json::array();
     for (const EqualError::Measured& path : e.path)
-        measured.push_back({{"spp", path.samples}, {"seconds", path.seconds}, {"relmse", path.relmse}});
+        measured.push_back({{"spp", path.samples},
+                            {"seconds", path.seconds},
+                            {"relmse", path.error.relmse},
+                            {"relmse_half_width_95", path.error.half_width_95}});
     return {{"test", 4},
             {"voxels", e.voxels},
             {"frame_mean_ms", e.frame_ms},
-            {"frame_relmse", e.relmse},
+            {"frame_relmse", e.frame.relmse},
+            {"frame_relmse_half_width_95", e.frame.half_width_95},
             {"reference_spp", e.reference_samples},
             {"reference_seconds", e.reference_seconds},
-            {"reference_noise_relmse", e.reference_noise},
             {"path_threads", e.threads},
             {"path_measured", std::move(measured)},
-            {"path_method", "a/N + b through both measured pictures, solved for the frame's relmse"},
+            {"path_method", "relmse = a/N, a by both measured pictures (inverse variances), solved for the frame's relmse"},
             {"path_spp", optional_json(e.path_samples)},
             {"path_seconds", optional_json(e.path_seconds)},
             {"path_over_frame", optional_json(e.ratio())},
