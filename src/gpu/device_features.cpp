@@ -25,6 +25,7 @@ constexpr std::array required_core = {
     Feature<Core>{"independentBlend", &Core::independentBlend},
     Feature<Core>{"fragmentStoresAndAtomics", &Core::fragmentStoresAndAtomics},
     Feature<Core>{"shaderStorageImageWriteWithoutFormat", &Core::shaderStorageImageWriteWithoutFormat},
+    Feature<Core>{"shaderStorageImageExtendedFormats", &Core::shaderStorageImageExtendedFormats},
     Feature<Core>{"shaderImageGatherExtended", &Core::shaderImageGatherExtended},
 };
 constexpr std::array required_vulkan11 = {
@@ -108,6 +109,12 @@ std::string find_missing(VkPhysicalDevice device) {
     return missing;
 }
 
+bool has_int64_atomics(VkPhysicalDevice device) {
+    DeviceFeatures have;
+    vkGetPhysicalDeviceFeatures2(device, have.link(false));
+    return have.core.features.shaderInt64 && have.vulkan12.shaderBufferInt64Atomics;
+}
+
 bool has_float_atomics(VkPhysicalDevice device) {
     DeviceFeatures have;
     vkGetPhysicalDeviceFeatures2(device, have.link(true));
@@ -184,6 +191,7 @@ DeviceInfo describe(VkPhysicalDevice device, int number) {
     vkGetPhysicalDeviceFeatures(device, &features);
     info.geometry_shader = features.geometryShader;
     info.push_descriptors = contains(extensions, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+    info.buffer_int64_atomics = version >= VK_API_VERSION_1_3 && has_int64_atomics(device);
     info.shader_float_atomics =
         contains(extensions, VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME) && has_float_atomics(device);
 

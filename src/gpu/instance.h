@@ -30,6 +30,7 @@ struct DeviceInfo {
     bool conservative_degenerates = false;   ///< it draws triangles that rounding has left no area, too
     bool geometry_shader = false;
     bool shader_float_atomics = false;  ///< atomicAdd on 32-bit floats in buffers
+    bool buffer_int64_atomics = false;  ///< 64-bit integers in shaders, and atomics on them in buffers
     bool push_descriptors = false;
     std::uint64_t memory_bytes = 0;  ///< device-local
 };

@@ -130,6 +130,8 @@ struct ConvertSettings {
 enum class Revoxelize : std::uint8_t { once, changed, always };
 /// Who voxelizes: the one that is faster on the device, the hardware rasterizer, or compute.
 enum class Voxelizer : std::uint8_t { automatic, raster, compute };
+/// Who rasterizes the picture and the shadow maps: likewise.
+enum class Rasterizer : std::uint8_t { automatic, hardware, compute };
 
 /// Effects of voxel cone tracing, each of which switches alone.
 struct ConeTracingSettings {
@@ -149,6 +151,7 @@ struct RenderSettings {
     int bounces = 0;    ///< of indirect light in the voxel volume; 0 ("inf" in files): all
     Revoxelize revoxelize = Revoxelize::changed;
     Voxelizer voxelizer = Voxelizer::automatic;
+    Rasterizer rasterizer = Rasterizer::automatic;
     ConeTracingSettings vct;
     std::string tonemap = "hable";
     int shadow_map_size = 2048;

@@ -156,6 +156,9 @@ RenderSettings read_render_settings(const JsonCursor& cursor) {
     if (const auto voxelizer = object.find("voxelizer"))
         settings.voxelizer = voxelizer->one_of<Voxelizer>(
             {{"automatic", Voxelizer::automatic}, {"raster", Voxelizer::raster}, {"compute", Voxelizer::compute}});
+    if (const auto rasterizer = object.find("rasterizer"))
+        settings.rasterizer = rasterizer->one_of<Rasterizer>(
+            {{"automatic", Rasterizer::automatic}, {"hardware", Rasterizer::hardware}, {"compute", Rasterizer::compute}});
     if (const auto vct = object.find("vct")) settings.vct = read_cone_tracing(*vct);
     if (const auto tonemap = object.find("tonemap"))
         settings.tonemap = tonemap->one_of<std::string>({{"hable", "hable"}});

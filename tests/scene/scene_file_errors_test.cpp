@@ -217,6 +217,8 @@ const std::vector<BadFile>& bad_files() {
          "$.render.revoxelize: expected one of \"once\", \"changed\", \"always\", found \"never\""},
         {"UnknownVoxelizer", R"("render": {"voxelizer": "hardware"})",
          "$.render.voxelizer: expected one of \"automatic\", \"raster\", \"compute\", found \"hardware\""},
+        {"UnknownRasterizer", R"("render": {"rasterizer": "raster"})",
+         "$.render.rasterizer: expected one of \"automatic\", \"hardware\", \"compute\", found \"raster\""},
         {"ConeTracingNotAnObject", R"("render": {"vct": true})", "$.render.vct: expected an object, found true"},
         {"UnknownEffect", R"("render": {"vct": {"gloss": true}})",
          "$.render.vct.gloss: unknown key; expected diffuse, specular, refraction, shadows, ao, cones, "

@@ -238,7 +238,7 @@ TEST(SceneFile, ReadsEverySettingOfVoxelConeTracing) {
     EXPECT_EQ(plain.render_settings().vct, ConeTracingSettings{});
     EXPECT_EQ(plain.render_settings().bounces, 0) << "all of them";
     const Scene scene = parsed(R"({"heliodon": 1, "render": {"gi": "vct", "voxels": 512, "cascades": 5, "bounces": 2,
-        "revoxelize": "always", "voxelizer": "compute", "vct": {"diffuse": false, "specular": false,
+        "revoxelize": "always", "voxelizer": "compute", "rasterizer": "hardware", "vct": {"diffuse": false, "specular": false,
         "refraction": false, "shadows": true, "ao": false, "cones": 36, "half_resolution": true}}})");
     const RenderSettings& render = scene.render_settings();
     EXPECT_EQ(render.voxels, 512);
@@ -246,6 +246,7 @@ TEST(SceneFile, ReadsEverySettingOfVoxelConeTracing) {
     EXPECT_EQ(render.bounces, 2);
     EXPECT_EQ(render.revoxelize, Revoxelize::always);
     EXPECT_EQ(render.voxelizer, Voxelizer::compute);
+    EXPECT_EQ(render.rasterizer, Rasterizer::hardware);
     EXPECT_EQ(render.vct, (ConeTracingSettings{.diffuse = false,
                                                .specular = false,
                                                .refraction = false,
@@ -424,7 +425,7 @@ TEST(SceneOverride, ErrorsNameTheOverride) {
     const auto error = [](std::string path, std::string value) { return error_of(overridable, {{path, value}}); };
     EXPECT_EQ(error("render.voxel", "2"),
               "--set render.voxel=2: unknown key; expected gi, voxels, cascades, bounces, revoxelize, voxelizer, "
-              "vct, tonemap, shadow_map_size");
+              "rasterizer, vct, tonemap, shadow_map_size");
     EXPECT_EQ(error("render.vct.cones", "10"), "--set render.vct.cones=10: expected a multiple of 9, found 10");
     EXPECT_EQ(error("rendr.voxels", "2").substr(0, 33), "--set rendr.voxels=2: unknown key");
     EXPECT_EQ(error("nodes.bulb.light.intensity_cd", "bright"),

@@ -16,9 +16,7 @@ void main() {
     const MaterialData material = material_table[instance_table[instance_index].material];
     const float opacity = surface_opacity(material, texcoord, vertex_alpha);
     if ((material.flags & material_flag_alpha_blend) != 0u) {
-        const uvec2 texel = uvec2(gl_FragCoord.xy);
-        const uint seed = pcg_hash(texel.x + pcg_hash(texel.y + pcg_hash(instance_index + pcg_hash(random_seed + view))));
-        if (unit_interval(seed) >= opacity) discard;
+        if (unit_interval(alpha_seed(uvec2(gl_FragCoord.xy), instance_index, random_seed + view)) >= opacity) discard;
     } else if (opacity < material.alpha_cutoff) {
         discard;
     }

@@ -1,0 +1,161 @@
+#include "passes/compute_raster/compute_raster.h"
+
+#include <algorithm>
+
+#include "gpu/device.h"
+
+namespace heliodon::passes {
+namespace {
+
+using graph::PassBuilder;
+using graph::PassContext;
+using graph::Usage;
+using shading::ComputeRasterConstants;
+using shading::RasterView;
+
+constexpr std::uint64_t key_bytes = sizeof(std::uint64_t);
+constexpr std::uint64_t key_budget_bytes = 256ull << 20;
+constexpr std::uint32_t threads_a_group = 64;
+
+// Window coordinates stay within ±2¹⁴ pixels of the view's centre, so that edge functions fit 64 bits by far …
+constexpr float largest_coordinate_px = 16384;
+// … and within twice the view, so that depths interpolated there lose little.
+constexpr float widest_guard = 2;
+
+/// Workgroups spread over rows as linear_groups.glsl counts them.
+glm::uvec3 spread(std::uint64_t threads, std::uint32_t layers = 1) {
+    const auto groups = static_cast<std::uint32_t>((threads + threads_a_group - 1) / threads_a_group);
+    return {std::min(groups, shading::groups_a_row), (groups + shading::groups_a_row - 1) / shading::groups_a_row, layers};
+}
+
+/// What both uses share.
+struct ComputeRaster {
+    const SceneInputs& scene;
+    const ComputeRasterInputs& inputs;
+    graph::BufferHandle keys, strips;
+    const gpu::ComputePipeline *triangles = nullptr, *large = nullptr, *resolve = nullptr;
+
+    void declare(PassBuilder& pass) const {
+        pass.read_write(keys, Usage::storage_read_write);
+        pass.read_write(strips, Usage::storage_read_write);
+    }
+    /// Draws all batches; `outputs`: what the resolving shader writes.
+    void record(PassContext& context, const std::vector<NumberedBinding>& outputs) const;
+};
+
+void ComputeRaster::record(PassContext& context, const std::vector<NumberedBinding>& outputs) const {
+    gpu::Commands& commands = context.commands;
+    std::vector<NumberedBinding> own{{8, *inputs.views}, {12, *inputs.triangle_ranges}, {13, context.buffer(keys)},
+                                     {14, context.buffer(strips)}};
+    own.insert(own.end(), outputs.begin(), outputs.end());
+    for (std::size_t i = 0; i < inputs.batches.size(); ++i) {
+        const RasterBatch& batch = inputs.batches[i];
+        const ComputeRasterConstants push{inputs.range_count, inputs.triangle_count, batch.view_first,  batch.view_count,
+                                          batch.key_count,    inputs.strip_capacity, inputs.random_seed};
+        if (i > 0) commands.compute_barrier();
+        if (inputs.triangle_count > 0) {
+            const std::uint32_t view_groups = (batch.view_count + shading::raster_views_a_thread - 1) / shading::raster_views_a_thread;
+            commands.dispatch(*triangles, push, select_bindings(*triangles, scene, own), spread(inputs.triangle_count, view_groups));
+            commands.compute_barrier();
+            commands.dispatch(*large, push, select_bindings(*large, scene, own), {shading::raster_strip_groups, 1, 1});
+            commands.compute_barrier();
+        }
+        commands.dispatch(*resolve, push, select_bindings(*resolve, scene, own), spread(batch.key_count));
+    }
+}
+
+Result<ComputeRaster> begin(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const ComputeRasterInputs& inputs,
+                            const std::string& name, std::uint64_t key_count, bool keeps_slope) {
+    ComputeRaster self{scene, inputs, {}, {}};
+    const gpu::Specialization specialization{{0, keeps_slope ? 1u : 0u}, {1, inputs.tests_opacity ? 1u : 0u}};
+    auto triangles = pipelines.compute("passes/compute_raster/triangles.comp", specialization);
+    if (!triangles) return tl::unexpected(triangles.error());
+    self.triangles = *triangles;
+    auto large = pipelines.compute("passes/compute_raster/strips.comp", specialization);
+    if (!large) return tl::unexpected(large.error());
+    self.large = *large;
+    auto resolve = pipelines.compute(keeps_slope ? "passes/compute_raster/resolve_shadow.comp"
+                                                 : "passes/compute_raster/resolve_visibility.comp");
+    if (!resolve) return tl::unexpected(resolve.error());
+    self.resolve = *resolve;
+    // Zero at first, and left so by each frame.
+    self.keys = graph.create_persistent_buffer({name + " keys", key_count * key_bytes});
+    self.strips = graph.create_persistent_buffer({name + " strips", sizeof(shading::RasterStrips) + inputs.strip_capacity * sizeof(glm::uvec2)});
+    return self;
+}
+
+}  // namespace
+
+std::uint64_t raster_key_capacity(const gpu::Device& device) {
+    return std::min<std::uint64_t>(key_budget_bytes, device.limits().maxStorageBufferRange) / key_bytes;
+}
+
+bool can_raster_by_compute(const gpu::Device& device, std::uint64_t pixels_a_view) {
+    return device.info().buffer_int64_atomics && pixels_a_view <= raster_key_capacity(device);
+}
+
+RasterView raster_view(const glm::mat4& world_to_clip, glm::uvec2 corner, glm::uvec2 size, std::uint32_t layer, std::uint32_t number) {
+    RasterView view{};
+    view.world_to_clip = world_to_clip;
+    view.width = size.x;
+    view.height = size.y;
+    view.corner_x = corner.x;
+    view.corner_y = corner.y;
+    view.layer = layer;
+    view.number = number;
+    view.guard = std::clamp(2 * largest_coordinate_px / static_cast<float>(std::max(size.x, size.y)), 1.0f, widest_guard);
+    return view;
+}
+
+std::vector<RasterBatch> raster_batches(std::span<RasterView> views, std::uint64_t key_capacity) {
+    std::vector<RasterBatch> batches;
+    for (std::uint32_t i = 0; i < views.size(); ++i) {
+        const std::uint32_t keys = views[i].width * views[i].height;
+        if (batches.empty() || batches.back().key_count + std::uint64_t{keys} > key_capacity ||
+            batches.back().view_count == shading::raster_most_views)
+            batches.push_back({i, 0, 0});
+        views[i].first_key = batches.back().key_count;
+        batches.back().key_count += keys;
+        ++batches.back().view_count;
+    }
+    return batches;
+}
+
+Result<Visibility> add_visibility_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                             const ComputeRasterInputs& inputs, VkExtent2D extent) {
+    auto raster = begin(graph, pipelines, scene, inputs, "visibility", std::uint64_t{extent.width} * extent.height, false);
+    if (!raster) return tl::unexpected(raster.error());
+    Visibility result;
+    result.ids = graph.create_image({.name = "visibility", .format = VK_FORMAT_R32G32_UINT, .extent = {extent.width, extent.height, 1}});
+    graph.add_pass(
+        "visibility", graph::PassKind::compute,
+        [&](PassBuilder& pass) {
+            raster->declare(pass);
+            pass.write(result.ids, Usage::storage_write);
+        },
+        [self = *raster, result](PassContext& context) {
+            self.record(context, {{15, context.image(result.ids)}});
+        });
+    return result;
+}
+
+Result<void> add_shadow_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                   const ComputeRasterInputs& inputs, const ShadowMaps& maps, std::uint64_t texels) {
+    auto raster = begin(graph, pipelines, scene, inputs, "shadow",
+                        std::min(texels, raster_key_capacity(pipelines.device())), true);
+    if (!raster) return tl::unexpected(raster.error());
+    graph.add_pass(
+        "shadow", graph::PassKind::compute,
+        [&](PassBuilder& pass) {
+            raster->declare(pass);
+            // Maps that are not drawn now stay.
+            pass.read_write(maps.depth, Usage::storage_read_write);
+            pass.read_write(maps.slope, Usage::storage_read_write);
+        },
+        [self = *raster, maps](PassContext& context) {
+            self.record(context, {{15, context.image(maps.depth)}, {16, context.image(maps.slope)}});
+        });
+    return {};
+}
+
+}  // namespace heliodon::passes
