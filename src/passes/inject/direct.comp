@@ -29,12 +29,7 @@ const uint light_picks_a_face = 32u;
 /// Of very many lights each face picks some, always the same ones: cones see the mean of many faces.
 vec3 lights_illuminance(VoxelFace face, uint index) {
     vec3 sum = vec3(0.0f);
-    if (push.light_count <= most_lights_summed) {
-        for (uint i = 0u; i < push.light_count; ++i)
-            sum += illuminance_from(light_table[active_light_table[push.light_first + i]], face);
-        return sum;
-    }
-    LightPicks picks = light_picks(face.position, light_picks_a_face, unit_interval(pcg_hash(index)));
+    LightPicks picks = light_picks(face.position, push.light_count, light_picks_a_face, unit_interval(pcg_hash(index)));
     LightPick pick;
     while (next_light(picks, pick))
         sum += pick.weight * illuminance_from(light_table[active_light_table[push.light_first + pick.light]], face);
