@@ -28,11 +28,7 @@ const uint light_picks_a_sample = 16u;
 
 vec3 lights_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, FrameData frame, uint pixel_seed) {
     vec3 sum = vec3(0.0f);
-    if (frame.light_count <= most_lights_summed) {
-        for (uint i = 0u; i < frame.light_count; ++i) sum += light_reflected(point, lobes, wo, i, frame, pixel_seed);
-        return sum;
-    }
-    LightPicks picks = light_picks(point.position, light_picks_a_sample, unit_interval(pcg_hash(~pixel_seed)));
+    LightPicks picks = light_picks(point.position, frame.light_count, light_picks_a_sample, unit_interval(pcg_hash(~pixel_seed)));
     LightPick pick;
     while (next_light(picks, pick)) sum += pick.weight * light_reflected(point, lobes, wo, pick.light, frame, pixel_seed);
     return sum;
