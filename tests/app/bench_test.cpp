@@ -70,6 +70,14 @@ TEST_F(Bench, MeasuresEveryTestOfASceneAndItsStepsAddUp) {
     EXPECT_GT(equal["reference_spp"], equal["path_measured"][1]["spp"]);
     EXPECT_EQ(equal["path_measured"].size(), 2u);
     EXPECT_GT(equal["path_measured"][0]["relmse"], equal["path_measured"][1]["relmse"]) << "error falls with samples";
+    // Without the reference's noise the error is a/N, nothing else: N times it is the same.
+    double scaled[2], certain[2];
+    for (int i = 0; i < 2; ++i) {
+        const json& path = equal["path_measured"][i];
+        scaled[i] = path["spp"].get<double>() * path["relmse"].get<double>();
+        certain[i] = path["spp"].get<double>() * path["relmse_half_width_95"].get<double>();
+    }
+    EXPECT_NEAR(scaled[0], scaled[1], 2 * (certain[0] + certain[1])) << equal.dump();
     if (equal["path_seconds"].is_null()) return;  // half a second may be too short to tell, and that is said
     const double ratio = equal["path_seconds"].get<double>() * 1000 / equal["frame_mean_ms"].get<double>();
     EXPECT_NEAR(equal["path_over_frame"], ratio, 1e-6 * ratio);

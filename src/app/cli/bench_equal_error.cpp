@@ -71,16 +71,15 @@ NoiselessError error_of(const Image& test, const References& references) {
 }
 
 void solve(EqualError& result) {
-    const auto certain = [](const NoiselessError& error) { return error.relmse > error.half_width_95; };
-    if (!certain(result.frame)) return;
     double sum = 0, weights = 0;
     for (const EqualError::Measured& path : result.path) {
-        if (!certain(path.error)) return;
         const double weight = 1 / std::pow(path.samples * std::max(path.error.half_width_95, 1e-12), 2);
         sum += weight * path.samples * path.error.relmse;
         weights += weight;
     }
-    result.path_samples = std::max(1.0, sum / weights / result.frame.relmse);
+    const double a = sum / weights, a_half_width = 1 / std::sqrt(weights);
+    if (!(result.frame.relmse > result.frame.half_width_95) || !(a > a_half_width)) return;
+    result.path_samples = std::max(1.0, a / result.frame.relmse);
     result.path_seconds = *result.path_samples * result.path[1].seconds / result.path[1].samples;
 }
 
