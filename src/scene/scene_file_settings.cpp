@@ -54,7 +54,8 @@ int read_voxels(const JsonCursor& cursor) {
 
 int read_bounces(const JsonCursor& cursor) {
     if (cursor.json() == "inf") return 0;
-    if (cursor.json().is_string()) cursor.refuse(fmt::format("\"inf\" or a whole number from 1 to {}", most_counted_bounces));
+    if (cursor.json().is_string())
+        cursor.refuse(fmt::format("\"inf\" or a whole number from 1 to {}", most_counted_bounces));
     return cursor.integer(1, most_counted_bounces);
 }
 

@@ -46,7 +46,8 @@ std::vector<std::string> read_series(const std::string& text) {
     std::vector<std::string> names = CLI::detail::split(text, ',');
     for (const std::string& name : names)
         if (std::find(std::begin(cost_series), std::end(cost_series), name) == std::end(cost_series))
-            throw CLI::ValidationError("--series", "expected names out of voxels, pixels, triangles, lights, found \"" + name + "\"");
+            throw CLI::ValidationError("--series",
+                                       "expected names out of voxels, pixels, triangles, lights, found \"" + name + "\"");
     refuse_repeats("--series", names, text);
     return names;
 }
@@ -64,7 +65,8 @@ Result<void> bench_natus(const BenchOptions& options) {
 Result<void> bench_cost(const BenchOptions& options) {
     const SceneArgument& scene = options.natus.scene;
     if (!scene.path.empty() || !scene.overrides.empty())
-        throw CLI::ValidationError(scene.path.empty() ? "--set" : "--scene", "expected with natus: the cost is measured on built-in scenes");
+        throw CLI::ValidationError(scene.path.empty() ? "--set" : "--scene",
+                                   "expected with natus: the cost is measured on built-in scenes");
     if (options.voxels.size() > 1) throw CLI::ValidationError("--voxels", "expected one grid for the cost");
     const int voxels = options.voxels.empty() ? CostReport{}.voxels : options.voxels.front();
     const TimingOptions& timing = options.natus.timing;
@@ -87,7 +89,7 @@ Action declare_bench(CLI::App& command) {
             return name == "natus" || name == "cost" ? "" : "expected natus or cost, found \"" + name + "\"";
         });
     command.add_option("--scene", natus.scene.path,
-                       "natus: scene file instead of the built-in scene; the one lit by its wall is NAME-emissive beside it");
+                       "natus: scene file instead of the built-in scene; test 5's is NAME-emissive beside it");
     add_override_option(command, natus.scene);
     command.add_option_function<std::string>(
         "--size", [&natus](Text text) { natus.timing.size = read_size(text); }, "WIDTHxHEIGHT; default 1024x768");

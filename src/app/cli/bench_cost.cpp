@@ -31,7 +31,8 @@ std::vector<Load> loads_of(const std::string& name, Size size, int edge) {
     if (name == "voxels")
         for (const int voxels : {32, 64, 128, 256}) add([&](Load& load) { load.voxels = voxels; });
     if (name == "pixels")
-        for (const int times : {1, 2, 4}) add([&](Load& load) { load.size = {size.width * times / 2, size.height * times / 2}; });
+        for (const int times : {1, 2, 4})
+            add([&](Load& load) { load.size = {size.width * times / 2, size.height * times / 2}; });
     if (name == "triangles")
         for (const int copies : {1, 10, 100}) add([&](Load& load) { load.copies = copies; });
     if (name == "lights")
@@ -45,7 +46,8 @@ double work_of(const std::string& name, const Load& load, const Scene& scene) {
     return name == "triangles" ? static_cast<double>(triangle_count(scene)) : load.lights;
 }
 
-Result<CostSeries::Row> time(const std::string& name, const Load& load, const TimingOptions& options, std::string& device) {
+Result<CostSeries::Row> time(const std::string& name, const Load& load, const TimingOptions& options,
+                             std::string& device) {
     Scene scene = crowded_scene(load.copies, load.lights);
     RenderSettings settings = scene.render_settings();
     settings.voxels = load.voxels;
@@ -87,8 +89,8 @@ Result<CostReport> run_cost(const TimingOptions& options, int voxels, const std:
 }
 
 std::string as_text(const CostReport& report, const TimingOptions& options) {
-    std::string text = fmt::format("cost: {}, {}x{}, {}³ voxels, milliseconds a frame on the GPU, median of {} frames\n", report.device,
-                                   options.size.width, options.size.height, report.voxels, options.frames);
+    std::string text = fmt::format("cost: {}, {}x{}, {}³ voxels, milliseconds a frame on the GPU, median of {} frames\n",
+                                   report.device, options.size.width, options.size.height, report.voxels, options.frames);
     for (const CostSeries& series : report.series) {
         text += fmt::format("\n{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>14}\n", series.name, "frame", "shadow map",
                             "voxelize", "filter", "cone trace", "rest", "time / work");

@@ -27,7 +27,8 @@ struct CostReport {
 inline constexpr const char* cost_series[] = {"voxels", "pixels", "triangles", "lights"};
 
 /// Measures the series of these names, with `voxels` an edge where they do not grow. Progress goes to standard error.
-[[nodiscard]] Result<CostReport> run_cost(const TimingOptions& options, int voxels, const std::vector<std::string>& names);
+[[nodiscard]] Result<CostReport> run_cost(const TimingOptions& options, int voxels,
+                                          const std::vector<std::string>& names);
 
 [[nodiscard]] std::string as_text(const CostReport& report, const TimingOptions& options);
 [[nodiscard]] std::string as_json(const CostReport& report, const TimingOptions& options);

@@ -98,7 +98,8 @@ Result<EqualError> find_equal_error(const Scene& scene, const Camera& camera, co
     if (!second) return tl::unexpected(second.error());
     result.reference_seconds = first->statistics.seconds + second->statistics.seconds;
 
-    const References references{std::move(first->image), std::move(second->image), shading::exposure_scale(camera.ev100())};
+    const References references{std::move(first->image), std::move(second->image),
+                                shading::exposure_scale(camera.ev100())};
     result.frame = error_of(frame, references);
     const int few = std::max(1, result.reference_samples / 16), many = std::max(2 * few, result.reference_samples / 4);
     for (int i = 0; i < 2; ++i) {

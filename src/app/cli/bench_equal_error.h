@@ -16,8 +16,8 @@ struct NoiselessError {
     double half_width_95 = 0;  ///< as pixels differ
 };
 
-/// How long the path tracer takes to a picture as far from the truth as one real-time frame is. The error of a
-/// picture of N samples is a/N; a is the mean of what two measured pictures say, weighted by how certain they are.
+/// How long the path tracer takes to a picture as far from the truth as one real-time frame is. The error of a picture
+/// of N samples is a/N; a is the mean of what two measured pictures say, weighted by how certain they are.
 struct EqualError {
     int voxels = 0;       ///< of the real-time frame
     double frame_ms = 0;  ///< mean, on the GPU

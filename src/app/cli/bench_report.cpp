@@ -79,8 +79,8 @@ std::string error_text(const NoiselessError& error) {
 
 std::string equal_error_text(const EqualError& e) {
     std::string text = fmt::format(
-        "test 4, one frame with {} voxels: {} (95 %), against two path-traced references ({} samples a pixel each, {:.1f} "
-        "s)\n",
+        "test 4, one frame with {} voxels: {} (95 %), against two path-traced references ({} samples a pixel each, "
+        "{:.1f} s)\n",
         grid(e.voxels), error_text(e.frame), e.reference_samples, e.reference_seconds);
     for (const EqualError::Measured& path : e.path)
         text += fmt::format("path tracer, {} threads: {} samples a pixel in {:.2f} s: {}\n", e.threads, path.samples,

@@ -166,7 +166,8 @@ bool named_choice(const char* label, Enumeration& value, const char* names) {
 
 bool edit_volume(RenderSettings& settings) {
     bool edited = number_choice("voxels an edge", settings.voxels, {32, 64, 128, 256, 512});
-    edited |= ImGui::SliderInt("cascades", &settings.cascades, 1, most_voxel_cascades, "%d", ImGuiSliderFlags_AlwaysClamp);
+    edited |= ImGui::SliderInt("cascades", &settings.cascades, 1, most_voxel_cascades, "%d",
+                               ImGuiSliderFlags_AlwaysClamp);
     edited |= ImGui::SliderInt("bounces", &settings.bounces, 0, most_counted_bounces,
                                settings.bounces == 0 ? "all" : "%d",
                                ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
@@ -209,7 +210,8 @@ void draw_panels(Scene& scene, ViewState& view, const FrameReport& report) {
         if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) camera_panel(scene, view);
         if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) lights_panel(scene);
         if (ImGui::CollapsingHeader("Materials", ImGuiTreeNodeFlags_DefaultOpen)) materials_panel(scene);
-        if (ImGui::CollapsingHeader("Global illumination", ImGuiTreeNodeFlags_DefaultOpen)) global_illumination_panel(scene);
+        if (ImGui::CollapsingHeader("Global illumination", ImGuiTreeNodeFlags_DefaultOpen))
+            global_illumination_panel(scene);
         ImGui::PopItemWidth();
     }
     ImGui::End();
