@@ -14,7 +14,8 @@ class Bench : public ProgramTest {
 protected:
     /// The table of a tiny run; empty, and a failed test, where it went wrong.
     [[nodiscard]] json measure(std::initializer_list<std::string> extra) const {
-        std::vector<std::string> arguments{"bench", "natus", "--size", "32x24", "--voxels", "32", "--frames", "2", "--json"};
+        std::vector<std::string> arguments{"bench", "natus",    "--size", "32x24", "--voxels",
+                                           "32",    "--frames", "2",      "--json"};
         arguments.insert(arguments.end(), extra);
         const Ended ended = run(arguments);
         EXPECT_EQ(ended.code, 0) << ended.error;
@@ -97,7 +98,8 @@ TEST_F(Bench, TakesTheTestsThatTheSceneAndTheUserAskFor) {
 }
 
 TEST_F(Bench, CostHasARowForEachAmountOfWork) {
-    const Ended ended = run({"bench", "cost", "--series", "pixels", "--size", "32x24", "--voxels", "32", "--frames", "1", "--json"});
+    const Ended ended =
+        run({"bench", "cost", "--series", "pixels", "--size", "32x24", "--voxels", "32", "--frames", "1", "--json"});
     ASSERT_EQ(ended.code, 0) << ended.error;
     const json series = json::parse(ended.output)["series"];
     ASSERT_EQ(series.size(), 1u);

@@ -44,8 +44,9 @@ protected:
 TEST_F(GlobalIllumination, TheOptionsAndTheSceneAskForTheSameLightAndTheOptionsWin) {
     const Picture by_option = render({"--gi", "vct", "--voxels", "32"});
     EXPECT_EQ(by_option.image.pixels, render({"--set", "render.gi=vct", "--set", "render.voxels=32"}).image.pixels);
-    EXPECT_EQ(by_option.image.pixels,
-              render({"--set", "render.gi=none", "--set", "render.voxels=64", "--gi", "vct", "--voxels", "32"}).image.pixels);
+    EXPECT_EQ(
+        by_option.image.pixels,
+        render({"--set", "render.gi=none", "--set", "render.voxels=64", "--gi", "vct", "--voxels", "32"}).image.pixels);
     const Picture direct = render({});
     EXPECT_EQ(direct.image.pixels, render({"--set", "render.gi=vct", "--gi", "none"}).image.pixels);
     EXPECT_GT(mean(by_option.image), 1.05f * mean(direct.image));
@@ -54,7 +55,8 @@ TEST_F(GlobalIllumination, TheOptionsAndTheSceneAskForTheSameLightAndTheOptionsW
 TEST_F(GlobalIllumination, EachEffectIsSwitchedByAnOverride) {
     const Picture direct = render({});
     const Picture no_diffuse = render({"--gi", "vct", "--voxels", "32", "--set", "render.vct.diffuse=false"});
-    EXPECT_NEAR(mean(no_diffuse.image), mean(direct.image), 1e-3f * mean(direct.image)) << "rough surfaces have no other";
+    EXPECT_NEAR(mean(no_diffuse.image), mean(direct.image), 1e-3f * mean(direct.image))
+        << "rough surfaces have no other";
     const Picture one = render({"--gi", "vct", "--voxels", "32", "--set", "render.bounces=1"});
     const Picture all = render({"--gi", "vct", "--voxels", "32", "--set", "render.bounces=inf"});
     EXPECT_GT(mean(one.image), 1.02f * mean(direct.image));
@@ -89,7 +91,8 @@ TEST_F(GlobalIllumination, SensorsMeasureIndirectLightToo) {
 }
 
 TEST_F(GlobalIllumination, VoxelsOfNoVolumeAreWarnedOf) {
-    const Ended ended = run({"render", "s.heliodon.json", "--size", "8x8", "--spp", "1", "--voxels", "64", "-o", "a.exr"});
+    const Ended ended =
+        run({"render", "s.heliodon.json", "--size", "8x8", "--spp", "1", "--voxels", "64", "-o", "a.exr"});
     EXPECT_EQ(ended.code, 0) << ended.error;
     EXPECT_EQ(ended.error.rfind("heliodon: warning: --voxels: ", 0), 0u) << ended.error;
 }

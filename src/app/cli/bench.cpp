@@ -46,8 +46,8 @@ std::vector<std::string> read_series(const std::string& text) {
     std::vector<std::string> names = CLI::detail::split(text, ',');
     for (const std::string& name : names)
         if (std::find(std::begin(cost_series), std::end(cost_series), name) == std::end(cost_series))
-            throw CLI::ValidationError("--series",
-                                       "expected names out of voxels, pixels, triangles, lights, found \"" + name + "\"");
+            throw CLI::ValidationError(
+                "--series", "expected names out of voxels, pixels, triangles, lights, found \"" + name + "\"");
     refuse_repeats("--series", names, text);
     return names;
 }
@@ -101,8 +101,9 @@ Action declare_bench(CLI::App& command) {
         "natus: which of the tests; default 1,2,3,4,5. The path tracer is compared with test 4");
     command.add_option("--frames", natus.timing.frames, "Frames to time of each, after warm-up; default 50")
         ->check(check_positive);
-    command.add_option("--path-seconds", natus.path_seconds,
-                       "natus: how long to trace paths for the comparison at equal error; default 60, 0: none")
+    command
+        .add_option("--path-seconds", natus.path_seconds,
+                    "natus: how long to trace paths for the comparison at equal error; default 60, 0: none")
         ->check(check_not_negative);
     command.add_option_function<std::string>(
         "--series", [&series = options->series](Text text) { series = read_series(text); },

@@ -89,8 +89,9 @@ Result<CostReport> run_cost(const TimingOptions& options, int voxels, const std:
 }
 
 std::string as_text(const CostReport& report, const TimingOptions& options) {
-    std::string text = fmt::format("cost: {}, {}x{}, {}³ voxels, milliseconds a frame on the GPU, median of {} frames\n",
-                                   report.device, options.size.width, options.size.height, report.voxels, options.frames);
+    std::string text =
+        fmt::format("cost: {}, {}x{}, {}³ voxels, milliseconds a frame on the GPU, median of {} frames\n",
+                    report.device, options.size.width, options.size.height, report.voxels, options.frames);
     for (const CostSeries& series : report.series) {
         text += fmt::format("\n{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>14}\n", series.name, "frame", "shadow map",
                             "voxelize", "filter", "cone trace", "rest", "time / work");
@@ -120,12 +121,9 @@ std::string as_json(const CostReport& report, const TimingOptions& options) {
         }
         series.push_back({{"work", one.name}, {"rows", std::move(rows)}});
     }
-    const ordered_json all = {{"benchmark", "cost"},
-                              {"device", report.device},
-                              {"width", options.size.width},
-                              {"height", options.size.height},
-                              {"voxels", report.voxels},
-                              {"frames_timed", options.frames},
+    const ordered_json all = {{"benchmark", "cost"},         {"device", report.device},
+                              {"width", options.size.width}, {"height", options.size.height},
+                              {"voxels", report.voxels},     {"frames_timed", options.frames},
                               {"series", std::move(series)}};
     return all.dump(2) + "\n";
 }

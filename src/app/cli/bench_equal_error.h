@@ -10,7 +10,8 @@
 namespace heliodon::cli {
 
 /// relMSE (the mean of d² / (r² + 0.01) on exposed values) without the noise of the reference r: of two independent
-/// path-traced pictures A and B, d² is (test − A)(test − B), whose mean their noise does not change, and r is (A + B) / 2.
+/// path-traced pictures A and B, d² is (test − A)(test − B), whose mean their noise does not change, and r is (A + B)
+/// / 2.
 struct NoiselessError {
     double relmse = 0;
     double half_width_95 = 0;  ///< as pixels differ

@@ -143,8 +143,9 @@ Result<NatusReport> run_natus(const NatusOptions& options) {
     const auto done = options.scene.path.empty() ? measure_built_in(options, report) : measure_file(options, report);
     if (!done) return tl::unexpected(done.error());
     if (report.timings.empty())
-        return fail(report.scene, "expected lights for tests 1 to 4 or none for test 5, found nothing to measure of those "
-                                  "asked for");
+        return fail(report.scene,
+                    "expected lights for tests 1 to 4 or none for test 5, found nothing to measure of those "
+                    "asked for");
     return report;
 }
 

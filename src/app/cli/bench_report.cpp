@@ -35,8 +35,8 @@ std::string grid(int voxels) {
 }
 
 std::string frame_table(const NatusReport& report, const std::vector<int>& grids) {
-    std::string text = fmt::format("{:<36}{:<{}}{:<{}}\n", "voxelized", "in each frame", 18 * grids.size(), "once",
-                                   18 * grids.size());
+    std::string text =
+        fmt::format("{:<36}{:<{}}{:<{}}\n", "voxelized", "in each frame", 18 * grids.size(), "once", 18 * grids.size());
     text += fmt::format("{:<36}", "test");
     for (int half = 0; half < 2; ++half)
         for (const int voxels : grids) text += fmt::format("{:<18}", grid(voxels));
@@ -87,11 +87,13 @@ std::string equal_error_text(const EqualError& e) {
                             path.seconds, error_text(path.error));
     if (!e.path_seconds)
         return text + "an error is smaller than it is certain: trace the references for longer (--path-seconds)\n";
-    return text + fmt::format("path tracer to equal error: {:.4g} samples a pixel, {:.4g} s (1/N from both, by inverse variances)\n"
-                              "against {:.3f} ms in real time: {:.4g} times as long (published: 18 minutes against 20 "
-                              "ms, {:.0f} times)\n",
-                              *e.path_samples, *e.path_seconds, e.frame_ms, *e.ratio(),
-                              published_path_seconds * 1000 / published_frame_ms);
+    return text +
+           fmt::format(
+               "path tracer to equal error: {:.4g} samples a pixel, {:.4g} s (1/N from both, by inverse variances)\n"
+               "against {:.3f} ms in real time: {:.4g} times as long (published: 18 minutes against 20 "
+               "ms, {:.0f} times)\n",
+               *e.path_samples, *e.path_seconds, e.frame_ms, *e.ratio(),
+               published_path_seconds * 1000 / published_frame_ms);
 }
 
 ordered_json optional_json(const std::optional<double>& value) {
@@ -117,20 +119,21 @@ ordered_json equal_error_json(const EqualError& e) {
                             {"seconds", path.seconds},
                             {"relmse", path.error.relmse},
                             {"relmse_half_width_95", path.error.half_width_95}});
-    return {{"test", 4},
-            {"voxels", e.voxels},
-            {"frame_mean_ms", e.frame_ms},
-            {"frame_relmse", e.frame.relmse},
-            {"frame_relmse_half_width_95", e.frame.half_width_95},
-            {"reference_spp", e.reference_samples},
-            {"reference_seconds", e.reference_seconds},
-            {"path_threads", e.threads},
-            {"path_measured", std::move(measured)},
-            {"path_method", "relmse = a/N, a by both measured pictures (inverse variances), solved for the frame's relmse"},
-            {"path_spp", optional_json(e.path_samples)},
-            {"path_seconds", optional_json(e.path_seconds)},
-            {"path_over_frame", optional_json(e.ratio())},
-            {"published_path_over_frame", published_path_seconds * 1000 / published_frame_ms}};
+    return {
+        {"test", 4},
+        {"voxels", e.voxels},
+        {"frame_mean_ms", e.frame_ms},
+        {"frame_relmse", e.frame.relmse},
+        {"frame_relmse_half_width_95", e.frame.half_width_95},
+        {"reference_spp", e.reference_samples},
+        {"reference_seconds", e.reference_seconds},
+        {"path_threads", e.threads},
+        {"path_measured", std::move(measured)},
+        {"path_method", "relmse = a/N, a by both measured pictures (inverse variances), solved for the frame's relmse"},
+        {"path_spp", optional_json(e.path_samples)},
+        {"path_seconds", optional_json(e.path_seconds)},
+        {"path_over_frame", optional_json(e.ratio())},
+        {"published_path_over_frame", published_path_seconds * 1000 / published_frame_ms}};
 }
 
 }  // namespace
@@ -138,7 +141,8 @@ ordered_json equal_error_json(const EqualError& e) {
 std::string as_text(const NatusReport& report, const NatusOptions& options) {
     std::string text = fmt::format(
         "natus: {} ({} triangles), {}, {}x{}\nmilliseconds a frame on the GPU, mean (median) of {} frames\n\n",
-        report.scene, report.triangles, report.device, options.timing.size.width, options.timing.size.height, options.timing.frames);
+        report.scene, report.triangles, report.device, options.timing.size.width, options.timing.size.height,
+        options.timing.frames);
     text += frame_table(report, options.voxels);
     text += '\n';
     text += step_table(report, options.voxels);
@@ -153,16 +157,17 @@ std::string as_json(const NatusReport& report, const NatusOptions& options) {
     for (const NatusTiming& timing : report.timings) timings.push_back(timing_json(timing));
     ordered_json published = steps_json(published_natus_steps);
     published["rest_ms"] = nullptr;
-    const ordered_json all = {{"benchmark", "natus"},
-                              {"scene", report.scene},
-                              {"triangles", report.triangles},
-                              {"device", report.device},
-                              {"width", options.timing.size.width},
-                              {"height", options.timing.size.height},
-                              {"frames_timed", options.timing.frames},
-                              {"timings", std::move(timings)},
-                              {"published_steps_gtx_960", std::move(published)},
-                              {"equal_error", report.equal_error ? equal_error_json(*report.equal_error) : ordered_json()}};
+    const ordered_json all = {
+        {"benchmark", "natus"},
+        {"scene", report.scene},
+        {"triangles", report.triangles},
+        {"device", report.device},
+        {"width", options.timing.size.width},
+        {"height", options.timing.size.height},
+        {"frames_timed", options.timing.frames},
+        {"timings", std::move(timings)},
+        {"published_steps_gtx_960", std::move(published)},
+        {"equal_error", report.equal_error ? equal_error_json(*report.equal_error) : ordered_json()}};
     return all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -94,8 +94,7 @@ Scene natus_scene(bool emissive) {
 Scene crowded_scene(int copies, int lights) {
     Scene scene;
     add_walls(scene, {});
-    const GeometryId knot =
-        scene.add_geometry({.name = "knot", .mesh = torus_knot_mesh(2, 3, 0.9f, 0.2f, 413)});
+    const GeometryId knot = scene.add_geometry({.name = "knot", .mesh = torus_knot_mesh(2, 3, 0.9f, 0.2f, 413)});
     const MaterialId clay = add_lambert(scene, "green clay", {0, 0.5f, 0});
     const int edge = static_cast<int>(std::ceil(std::cbrt(copies)));
     for (int i = 0; i < copies; ++i) {

@@ -12,9 +12,9 @@ namespace {
 
 /// The passes of each step, by how their names begin.
 constexpr std::pair<std::string_view, double FrameSteps::*> step_of_passes[] = {
-    {"shadow", &FrameSteps::shadow_map_ms},   {"voxelize", &FrameSteps::voxelize_ms},
-    {"inject", &FrameSteps::filter_ms},       {"gather", &FrameSteps::filter_ms},
-    {"radiance", &FrameSteps::filter_ms},     {"filter", &FrameSteps::filter_ms},
+    {"shadow", &FrameSteps::shadow_map_ms},    {"voxelize", &FrameSteps::voxelize_ms},
+    {"inject", &FrameSteps::filter_ms},        {"gather", &FrameSteps::filter_ms},
+    {"radiance", &FrameSteps::filter_ms},      {"filter", &FrameSteps::filter_ms},
     {"cone trace", &FrameSteps::cone_trace_ms}};
 
 }  // namespace
