@@ -12,10 +12,16 @@
 layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
 float shading_table(uint index) { return shading_tables[index]; }
 
-vec3 light_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, uint index, FrameData frame, uint pixel_seed) {
-    const LightData light = light_table[active_light_table[frame.light_first + index]];
+LightData batch_light(FrameData frame, uint index) { return light_table[active_light_table[frame.light_first + index]]; }
+
+LightSample light_arriving(vec3 position, LightData light, uint index, uint pixel_seed) {
     const uint seed = pcg_hash(pixel_seed + index);
-    const LightSample arriving = light_sample(light, point.position, vec2(unit_interval(seed), unit_interval(pcg_hash(seed))));
+    return light_sample(light, position, vec2(unit_interval(seed), unit_interval(pcg_hash(seed))));
+}
+
+vec3 light_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, uint index, FrameData frame, uint pixel_seed) {
+    const LightData light = batch_light(frame, index);
+    const LightSample arriving = light_arriving(point.position, light, index, pixel_seed);
     if (arriving.value == vec3(0.0f)) return vec3(0.0f);
     const vec3 wi = to_local(point.frame, arriving.direction);
     const vec3 reflected = bsdf_evaluate_prepared(point.material.surface, lobes, wo, wi) *
@@ -24,13 +30,43 @@ vec3 light_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, uint index, F
     return reflected * light_reaching(light, point.position, point.geometric, frame.shadow_filter);
 }
 
-const uint light_picks_a_sample = 16u;
+// A sample picks lights by their grid cell, and of each four of these one by what it gives the surface itself.
+const uint light_picks_a_sample = 32u;
+const uint picks_a_group = 4u;
 
+/// What chances among picked lights are in proportion to: unshadowed illuminance; 0 only where the light cannot matter.
+float pick_value(SurfacePoint point, uint index, FrameData frame, uint pixel_seed) {
+    const LightSample arriving = light_arriving(point.position, batch_light(frame, index), index, pixel_seed);
+    const float cosine = dot(arriving.direction, point.frame.normal);
+    const bool transmits = point.material.surface.transmission > 0.0f;
+    return luminance(arriving.value) * (transmits ? abs(cosine) : max(cosine, 0.0f));
+}
+
+/// Resampled importance sampling (Talbot, Cline & Egbert 2005, "Importance Resampling for Global Illumination", eq. 6).
 vec3 lights_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, FrameData frame, uint pixel_seed) {
     vec3 sum = vec3(0.0f);
-    LightPicks picks = light_picks(point.position, frame.light_count, light_picks_a_sample, unit_interval(pcg_hash(~pixel_seed)));
+    uint seed = pcg_hash(~pixel_seed);
+    LightPicks picks = light_picks(point.position, frame.light_count, light_picks_a_sample, unit_interval(seed));
+    const uint group = picks.all ? 1u : picks_a_group;
     LightPick pick;
-    while (next_light(picks, pick)) sum += pick.weight * light_reflected(point, lobes, wo, pick.light, frame, pixel_seed);
+    bool more = true;
+    while (more) {
+        float total = 0.0f;
+        float chosen_value = 1.0f;
+        uint chosen = 0u;
+        for (uint i = 0u; i < group && more; ++i) {
+            more = next_light(picks, pick);
+            if (!more) break;
+            const float value = picks.all ? 1.0f : pick_value(point, pick.light, frame, pixel_seed);
+            const float weight = pick.weight * value;
+            total += weight;
+            seed = pcg_hash(seed);
+            if (unit_interval(seed) * total >= weight) continue;
+            chosen = pick.light;
+            chosen_value = value;
+        }
+        if (total > 0.0f) sum += total / chosen_value * light_reflected(point, lobes, wo, chosen, frame, pixel_seed);
+    }
     return sum;
 }
 
