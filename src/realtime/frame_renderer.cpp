@@ -28,7 +28,7 @@ constexpr std::uint64_t shadow_texel_bytes = 8;  // depth and slope
 constexpr std::uint32_t smallest_shadow_layers = 6;  // one cube
 // What shadow views may draw: a command an instance, view and draw list.
 constexpr std::uint64_t shadow_draw_budget_bytes = 256ull << 20;
-constexpr std::uint32_t most_shadow_views = 32768;  // culling counts them in one dimension of a dispatch
+constexpr std::uint32_t most_shadow_views = 65535;  // culling counts them in one dimension of a dispatch
 constexpr std::size_t frames_in_flight = 2;
 constexpr std::uint32_t fragments_per_pixel = 4;  // room for blended surfaces to begin with
 
@@ -191,6 +191,7 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
     wanted_.cone_traced = sample.cone_traced;
     wanted_.half_resolution = sample.cone_traced && settings_.vct.half_resolution;
     wanted_.volume = key_.volume;
+    if (auto done = choose_rasterizer(); !done) return done;
     if (!(wanted_ == key_)) {
         if (auto done = device_.wait_idle(); !done) return done;
         // After a failure some of it is of the old size and some of the new: the next frame makes all anew.
@@ -223,14 +224,17 @@ Result<void> FrameRenderer::make_images() {
                                             .usage = VK_IMAGE_USAGE_STORAGE_BIT}); !done)
                 return done;
     }
-    if (wanted_.shadow_layers != key_.shadow_layers || wanted_.shadow_size != key_.shadow_size) {
+    if (wanted_.shadow_layers != key_.shadow_layers || wanted_.shadow_size != key_.shadow_size ||
+        wanted_.computed_shadows != key_.computed_shadows) {
         const auto size = static_cast<std::uint32_t>(wanted_.shadow_size);
-        gpu::ImageDescription maps{.name = "shadow depth", .format = passes::shadow_depth_format, .extent = {size, size, 1},
-                                   .layers = wanted_.shadow_layers, .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT};
+        const bool computed = wanted_.computed_shadows;
+        gpu::ImageDescription maps{.name = "shadow depth", .extent = {size, size, 1}, .layers = wanted_.shadow_layers};
+        maps.format = computed ? passes::computed_depth_format : passes::shadow_depth_format;
+        maps.usage = computed ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
         if (auto done = make(shadow_depth_, maps); !done) return done;
         maps.name = "shadow slope";
         maps.format = passes::shadow_slope_format;
-        maps.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+        maps.usage = computed ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
         if (auto done = make(shadow_slope_, maps); !done) return done;
         resident_shadows_ = {};
         voxels_.forget_passes();
@@ -261,10 +265,7 @@ Result<void> FrameRenderer::make_images() {
 Result<void> FrameRenderer::build_shadow_graph() {
     graph::Graph graph;
     const passes::ShadowMaps maps{graph.import_image(shadow_depth_.description()), graph.import_image(shadow_slope_.description())};
-    auto lists = passes::add_cull(graph, pipelines_, inputs_, {wanted_.shadow_views, wanted_.instance_capacity, true},
-                                  shadow_cull_views_, shadow_inputs_.view_count);
-    if (!lists) return tl::unexpected(lists.error());
-    if (auto done = passes::add_shadow(graph, pipelines_, inputs_, shadow_inputs_, *lists, maps); !done) return done;
+    if (auto done = add_shadow_maps(graph, maps); !done) return done;
     graph.export_image(maps.depth);
     graph.export_image(maps.slope);
     if (auto done = shadow_executor_->set_graph(graph); !done) return done;
@@ -279,10 +280,10 @@ Result<void> FrameRenderer::build_frame_graph() {
     const passes::ShadowMaps maps{graph.import_image(shadow_depth_.description()), graph.import_image(shadow_slope_.description())};
     const graph::ImageHandle sum = graph.import_image(sum_.description());
     graph.export_image(sum);
-    const graph::ImageHandle volume = graph.import_image(voxels_.faces().description());
-    auto lists = passes::add_cull(graph, pipelines_, inputs_, {1, wanted_.instance_capacity, false}, camera_view_, camera_view_count_);
-    if (!lists) return tl::unexpected(lists.error());
-    auto visibility = passes::add_visibility(graph, pipelines_, inputs_, camera_view_, *lists, extent);
+    const passes::VolumeImages volume{graph.import_image(voxels_.inputs().faces->description()),
+                                      graph.import_image(voxels_.inputs().depths->description())};
+    passes::DrawLists lists;
+    auto visibility = add_visibility(graph, extent, lists);
     if (!visibility) return tl::unexpected(visibility.error());
     auto picture = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, volume, extent, wanted_.aov);
     if (!picture) return tl::unexpected(picture.error());
@@ -294,7 +295,7 @@ Result<void> FrameRenderer::build_frame_graph() {
     graph::BufferHandle fragments;
     if (wanted_.blended && !wanted_.aov) {
         fragments = graph.import_buffer(fragments_.description());
-        if (auto done = passes::add_blend(graph, pipelines_, inputs_, lighting_, camera_view_, *lists, *visibility, maps, volume,
+        if (auto done = passes::add_blend(graph, pipelines_, inputs_, lighting_, camera_view_, lists, *visibility, maps, volume,
                                           fragments, *picture, extent); !done)
             return done;
     }
@@ -309,7 +310,8 @@ Result<void> FrameRenderer::build_frame_graph() {
     frame_executor_->bind(maps.depth, shadow_depth_);
     frame_executor_->bind(maps.slope, shadow_slope_);
     frame_executor_->bind(sum, sum_);
-    frame_executor_->bind(volume, voxels_.faces());
+    frame_executor_->bind(volume.faces, *voxels_.inputs().faces);
+    frame_executor_->bind(volume.depths, *voxels_.inputs().depths);
     if (fragments) frame_executor_->bind(fragments, fragments_);
     if (display) frame_executor_->bind(display, display_);
     return {};
@@ -341,6 +343,7 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
     const shading::ViewData view{frame.world_to_clip};
     if (auto done = device_.upload(frame_buffer_, std::span<const shading::FrameData>(&frame, 1)); !done) return done;
     if (auto done = device_.upload(camera_view_, std::span<const shading::ViewData>(&view, 1)); !done) return done;
+    if (auto done = place_raster_camera(frame.world_to_clip); !done) return done;
     replace_sum_ = sample.replace && batch == 0;
     display_scale_ = sample.display_scale;
     if (auto done = frame_executor_->execute(*commands, &timestamps_); !done) return done;

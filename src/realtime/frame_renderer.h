@@ -12,6 +12,7 @@
 #include "gpu/pipeline.h"
 #include "gpu/timestamps.h"
 #include "graph/executor.h"
+#include "passes/compute_raster/compute_raster.h"
 #include "passes/sensors/sensors.h"
 #include "passes/shade/shade.h"
 #include "passes/shadow/shadow.h"
@@ -98,6 +99,7 @@ private:
     struct GraphKey {
         int width = 0, height = 0;
         bool display = false, blended = false, aov = false, cone_traced = false, cone_shadows = false, half_resolution = false;
+        bool computed_visibility = false, computed_shadows = false, tests_opacity = false;  // rasterized by compute
         std::uint32_t instance_capacity = 0, shadow_layers = 0, shadow_views = 0;
         int shadow_size = 0;
         std::uint32_t fragment_capacity = 0;
@@ -152,6 +154,16 @@ private:
     void surfaces_voxelized();
     [[nodiscard]] Result<void> submit(gpu::Commands commands, PassTimes* times);
     [[nodiscard]] Result<void> make_images();
+    /// Sets which of the wanted pictures compute rasterizes, and keeps what it reads up to date.
+    [[nodiscard]] Result<void> choose_rasterizer();
+    [[nodiscard]] Result<void> list_raster_triangles();
+    [[nodiscard]] Result<void> place_raster_views(passes::ComputeRasterInputs& inputs, GrowingBuffer& buffer,
+                                                  std::vector<shading::RasterView> views);
+    [[nodiscard]] Result<void> place_raster_camera(const glm::mat4& world_to_clip);
+    [[nodiscard]] Result<void> place_raster_shadows(std::span<const shading::ShadowViewData> views);
+    [[nodiscard]] Result<void> add_shadow_maps(graph::Graph& graph, const passes::ShadowMaps& maps);
+    /// `lists`: what was culled, by the hardware's rasterizer alone.
+    [[nodiscard]] Result<passes::Visibility> add_visibility(graph::Graph& graph, VkExtent2D extent, passes::DrawLists& lists);
     [[nodiscard]] Result<void> build_shadow_graph();
     [[nodiscard]] Result<void> build_frame_graph();
     [[nodiscard]] Result<void> record_shadows(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
@@ -191,6 +203,8 @@ private:
     passes::SceneInputs inputs_;
     passes::LightingInputs lighting_;
     passes::ShadowInputs shadow_inputs_;
+    passes::ComputeRasterInputs camera_raster_, shadow_raster_;
+    std::uint64_t raster_revision_ = ~0ull;  // of the scene whose triangles are listed
     std::uint32_t camera_view_count_ = 1;
     bool replace_sum_ = true;
     float display_scale_ = 1.0f;
@@ -199,6 +213,8 @@ private:
     gpu::Buffer frame_buffer_, camera_view_, shadow_cull_views_, shadow_views_, shading_tables_, fragments_;
     gpu::Image shadow_depth_, shadow_slope_, sum_, display_, sky_specular_, sky_irradiance_;
     GrowingBuffer visible_lights_{"visible lights", 0}, light_grid_{"light grid", 0};
+    GrowingBuffer raster_ranges_{"raster ranges", 0}, camera_raster_view_{"camera raster view", 0},
+        shadow_raster_views_{"shadow raster views", 0};
     std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_;
     std::deque<gpu::TimelineValue> in_flight_;
 };

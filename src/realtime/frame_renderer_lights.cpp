@@ -72,6 +72,7 @@ Result<void> FrameRenderer::record_shadows(gpu::Commands& commands, const FrameS
     }
     shadow_inputs_.view_count = static_cast<std::uint32_t>(views.size());
     shadow_inputs_.random_seed = sample.shadow_index + sample.seed;
+    if (auto done = place_raster_shadows(views); !done) return done;
     if (!views.empty()) {
         const std::size_t first = static_cast<std::size_t>(due.data() - plan_.views.data()) - plan_.batches[batch].first_view;
         if (auto done = device_.upload<shading::ShadowViewData>(shadow_views_, views, first * sizeof(shading::ShadowViewData)); !done)

@@ -160,6 +160,7 @@ struct RealtimeRenderer::State {
         for (int i = 0; i < warm_up_frames + options.frames_timed; ++i) {
             FrameSample sample = still_sample(options, i, warm_up_frames + options.frames_timed);
             sample.jitter_shadows = false;
+            sample.shadow_index = 0;
             sample.force_shadows = true;
             sample.count = 0;  // as in motion: nothing is left to later frames
             sample.cone_traced = options.gi == "vct";

@@ -23,9 +23,9 @@ constexpr float snap_voxels = 2.0f;
 
 std::uint64_t cube(std::uint64_t n) { return n * n * n; }
 
-/// Bytes of the texture of all faces, with its levels.
+/// Bytes of the textures of all faces, with their levels.
 std::uint64_t texture_bytes(std::uint64_t size, std::uint64_t cascades) {
-    return 8 * shading::voxel_faces * cascades * cube(size) * 8 / 7;
+    return (8 + 2) * shading::voxel_faces * cascades * cube(size) * 8 / 7;
 }
 
 float brightest_emission(const convert::FlatScene& flat) {
@@ -87,23 +87,30 @@ Result<void> VoxelVolume::make_texture(VkExtent3D extent) {
     auto trilinear = device_.sampler(sampler);
     if (!trilinear) return tl::unexpected(trilinear.error());
     faces_ = {};
-    auto made = gpu::Image::create(device_, {.name = "voxel faces", .format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                             .extent = extent,
-                                             .mips = static_cast<std::uint32_t>(std::bit_width(extent.width / 2)),
-                                             .shape = gpu::ImageShape::volume, .usage = VK_IMAGE_USAGE_STORAGE_BIT});
-    if (!made)
-        return fail("render.voxels", fmt::format("a volume of {}x{}x{} texels: {}", extent.width, extent.height, extent.depth,
-                                                 made.error().text()));
-    faces_ = std::move(*made);
+    depths_ = {};
+    gpu::ImageDescription description{.name = "voxel faces", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = extent,
+                                      .mips = static_cast<std::uint32_t>(std::bit_width(extent.width / 2)),
+                                      .shape = gpu::ImageShape::volume, .usage = VK_IMAGE_USAGE_STORAGE_BIT};
+    for (gpu::Image* image : {&faces_, &depths_}) {
+        auto made = gpu::Image::create(device_, description);
+        if (!made)
+            return fail("render.voxels", fmt::format("a volume of {}x{}x{} texels: {}", extent.width, extent.height, extent.depth,
+                                                     made.error().text()));
+        *image = std::move(*made);
+        description.name = "voxel depths";
+        description.format = VK_FORMAT_R16_SFLOAT;
+    }
     ++texture_revision_;
     shown_ = {};
-    inputs_ = {&faces_, &data_buffer_, *trilinear};
+    inputs_ = {&faces_, &depths_, &data_buffer_, *trilinear};
     shown_inputs_ = inputs_;
     shown_inputs_.data = &shown_buffer_;
     return device_.run("clear volume", [&](gpu::Commands& commands) {
-        commands.transition(faces_, cleared);
-        commands.clear({&faces_}, {});
-        commands.transition(faces_, sampled);
+        for (const gpu::Image* image : {&faces_, &depths_}) {
+            commands.transition(*image, cleared);
+            commands.clear({image}, {});
+            commands.transition(*image, sampled);
+        }
     });
 }
 

@@ -60,7 +60,6 @@ public:
     /// Whether any surface emits light.
     [[nodiscard]] bool emits() const { return emits_; }
     [[nodiscard]] const passes::VolumeInputs& inputs() const { return inputs_; }
-    [[nodiscard]] const gpu::Image& faces() const { return faces_; }
     /// Goes up when the texture was made anew.
     [[nodiscard]] std::uint64_t texture_revision() const { return texture_revision_; }
     /// To be called when the shadow maps are other images than before, or lighting wants other pipelines.
@@ -137,7 +136,7 @@ private:
     GrowingBuffer still_ranges_{"triangle ranges", 0}, moving_ranges_{"moving triangle ranges", 0};
     float emission_unit_ = 1;
     gpu::Buffer data_buffer_, shown_buffer_;
-    gpu::Image faces_;
+    gpu::Image faces_, depths_;
     passes::VolumeInputs inputs_, shown_inputs_;  // shown_inputs_: for light gathered while the texture is made anew
 };
 

@@ -27,7 +27,7 @@ void add_keep_still(graph::Graph& graph, const passes::VoxelSurfaces& surfaces, 
 /// A graph in which the volume's resources are known; every graph imports them in the same order.
 struct VoxelVolume::VolumeGraph {
     graph::Graph graph;
-    graph::ImageHandle faces;
+    passes::VolumeImages images;
     passes::ShadowMaps shadow_maps;
     std::vector<passes::InjectCascade> cascades;
     std::vector<passes::CarriedSurfaces> still;  ///< of each cascade, if they are kept
@@ -35,7 +35,7 @@ struct VoxelVolume::VolumeGraph {
 
 VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
     VolumeGraph volume;
-    volume.faces = volume.graph.import_image(faces_.description());
+    volume.images = {volume.graph.import_image(faces_.description()), volume.graph.import_image(depths_.description())};
     volume.shadow_maps = {volume.graph.import_image(source.shadow_depth.description()),
                           volume.graph.import_image(source.shadow_slope.description())};
     for (const auto& cascade : cascades_) {
@@ -56,7 +56,8 @@ VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
 }
 
 Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& volume, const Source& source) const {
-    volume.graph.export_image(volume.faces, graph::Usage::sampled);
+    volume.graph.export_image(volume.images.faces, graph::Usage::sampled);
+    volume.graph.export_image(volume.images.depths, graph::Usage::sampled);
     for (const auto& one : volume.cascades)
         for (const graph::BufferHandle buffer : {one.surfaces.numbers, one.surfaces.cells, one.surfaces.records,
                                                  one.surfaces.tiles, one.surfaces.levels, one.illuminance, one.gathered,
@@ -65,7 +66,8 @@ Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& v
     for (const passes::CarriedSurfaces& still : volume.still)
         for (const graph::BufferHandle buffer : {still.numbers, still.cells, still.records}) volume.graph.export_buffer(buffer);
     if (auto done = executor.set_graph(volume.graph); !done) return done;
-    executor.bind(volume.faces, faces_);
+    executor.bind(volume.images.faces, faces_);
+    executor.bind(volume.images.depths, depths_);
     executor.bind(volume.shadow_maps.depth, source.shadow_depth);
     executor.bind(volume.shadow_maps.slope, source.shadow_slope);
     for (std::size_t i = 0; i < cascades_.size(); ++i) {
@@ -125,17 +127,17 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
     VolumeGraph lights = begin();
     for (const auto& cascade : lights.cascades)
         if (auto done = passes::add_direct_light(lights.graph, pipelines_, source.inputs, source.lighting, cascade, lights.shadow_maps,
-                                                 lights.faces); !done)
+                                                 lights.images); !done)
             return done;
     if (auto done = finish(steps_->lights, lights); !done) return done;
 
     const auto add_volume = [&](VolumeGraph& volume, bool emission_only) -> Result<void> {
         for (std::size_t i = 0; i <= last; ++i)
-            if (auto done = passes::add_volume_clear(volume.graph, pipelines_, volume.cascades[i], volume.faces, i == last); !done)
+            if (auto done = passes::add_volume_clear(volume.graph, pipelines_, volume.cascades[i], volume.images, i == last); !done)
                 return done;
         for (const auto& cascade : volume.cascades)
-            if (auto done = passes::add_radiance(volume.graph, pipelines_, cascade, volume.faces, emission_only); !done) return done;
-        return passes::add_filter(volume.graph, pipelines_, volume.cascades[last], volume.faces);
+            if (auto done = passes::add_radiance(volume.graph, pipelines_, cascade, volume.images, emission_only); !done) return done;
+        return passes::add_filter(volume.graph, pipelines_, volume.cascades[last], volume.images);
     };
     VolumeGraph emission = begin();
     if (auto done = add_volume(emission, true); !done) return done;
@@ -152,7 +154,7 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
 
     VolumeGraph bounce = begin();
     for (const auto& cascade : bounce.cascades)
-        if (auto done = passes::add_gather(bounce.graph, pipelines_, source.inputs, shown_inputs_, cascade, bounce.faces); !done) return done;
+        if (auto done = passes::add_gather(bounce.graph, pipelines_, source.inputs, shown_inputs_, cascade, bounce.images); !done) return done;
     if (auto done = add_volume(bounce, false); !done) return done;
     if (auto done = finish(steps_->bounce, bounce); !done) return done;
     passes_known_ = true;

@@ -17,7 +17,7 @@ VkDeviceSize blend_buffer_bytes(std::uint32_t capacity) {
 
 Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene, const LightingInputs& lighting,
                        const gpu::Buffer& views, const DrawLists& lists, const Visibility& visibility,
-                       const ShadowMaps& shadow_maps, graph::ImageHandle volume, graph::BufferHandle fragments,
+                       const ShadowMaps& shadow_maps, const VolumeImages& volume, graph::BufferHandle fragments,
                        graph::ImageHandle picture, VkExtent2D extent) {
     auto description = raster_description("blend lists", "passes/common/opaque.vert", "passes/blend/blend_lists.frag");
     description.depth_write = false;
@@ -66,7 +66,7 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
             pass.read_write(fragments, Usage::storage_read_write);
             pass.read(shadow_maps.depth, Usage::sampled);
             pass.read(shadow_maps.slope, Usage::sampled);
-            pass.read(volume, Usage::sampled);
+            read_volume(pass, volume);
             pass.read_write(picture, Usage::storage_read_write);
         },
         [&scene, &lighting, shadow_maps, heads, fragments, picture, extent, compose = *compose](PassContext& context) {
@@ -76,10 +76,11 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
                                                    {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
                                                    {11, *lighting.shading_tables},
-                                                   {22, *lighting.light_grid},
+                                                   {24, *lighting.light_grid},
                                                    {16, *lighting.visible_lights},
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},
+                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
                                                    {12, context.buffer(fragments)},
                                                    {13, context.buffer(heads)},
                                                    {14, context.image(picture)}});

@@ -11,7 +11,7 @@ namespace heliodon::passes {
 /// that find no room in `fragments` are counted there, not drawn.
 [[nodiscard]] Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene,
                                      const LightingInputs& lighting, const gpu::Buffer& views, const DrawLists& lists,
-                                     const Visibility& visibility, const ShadowMaps& shadow_maps, graph::ImageHandle volume,
+                                     const Visibility& visibility, const ShadowMaps& shadow_maps, const VolumeImages& volume,
                                      graph::BufferHandle fragments, graph::ImageHandle picture, VkExtent2D extent);
 
 }  // namespace heliodon::passes

@@ -10,7 +10,7 @@ struct HalfDiffuse {
 };
 
 Result<HalfDiffuse> add_half_diffuse(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                     const LightingInputs& lighting, const VolumeInputs& volume, graph::ImageHandle volume_faces,
+                                     const LightingInputs& lighting, const VolumeInputs& volume, const VolumeImages& images,
                                      const Visibility& visibility, VkExtent2D extent) {
     auto pipeline = pipelines.compute("passes/cone_trace/half_diffuse.comp");
     if (!pipeline) return tl::unexpected(pipeline.error());
@@ -22,19 +22,20 @@ Result<HalfDiffuse> add_half_diffuse(graph::Graph& graph, gpu::Pipelines& pipeli
         "cone trace diffuse", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(visibility.ids, graph::Usage::sampled);
-            pass.read(volume_faces, graph::Usage::sampled);
+            read_volume(pass, images);
             pass.write(result.light, graph::Usage::storage_write);
             pass.write(result.places, graph::Usage::storage_write);
         },
-        [&scene, &lighting, &volume, volume_faces, visibility, result, half, trace = *pipeline](graph::PassContext& context) {
+        [&scene, &lighting, &volume, images, visibility, result, half, trace = *pipeline](graph::PassContext& context) {
             const auto bindings = select_bindings(*trace, scene,
                                                   {{8, *lighting.frame},
                                                    {11, *lighting.shading_tables},
                                                    {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
                                                    {13, context.image(result.light)},
                                                    {14, context.image(result.places)},
-                                                   {20, gpu::Binding(context.image(volume_faces), volume.trilinear)},
-                                                   {21, *volume.data}});
+                                                   {20, gpu::Binding(context.image(images.faces), volume.trilinear)},
+                                                   {21, *volume.data},
+                                                   {22, gpu::Binding(context.image(images.depths), volume.trilinear)}});
             context.commands.dispatch_threads(*trace, gpu::NoPushConstants{}, bindings, {half.width, half.height, 1});
         });
     return result;
@@ -43,7 +44,7 @@ Result<HalfDiffuse> add_half_diffuse(graph::Graph& graph, gpu::Pipelines& pipeli
 }  // namespace
 
 Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                            const LightingInputs& lighting, const VolumeInputs& volume, graph::ImageHandle volume_faces,
+                            const LightingInputs& lighting, const VolumeInputs& volume, const VolumeImages& images,
                             const Visibility& visibility, graph::ImageHandle picture, VkExtent2D extent,
                             const ConeTraceOptions& options) {
     auto pipeline = pipelines.compute("passes/cone_trace/cone_trace.comp",
@@ -51,7 +52,7 @@ Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, cons
     if (!pipeline) return tl::unexpected(pipeline.error());
     HalfDiffuse diffuse{visibility.depth, visibility.depth};  // read by nothing, unless by the other half
     if (options.half_resolution) {
-        auto added = add_half_diffuse(graph, pipelines, scene, lighting, volume, volume_faces, visibility, extent);
+        auto added = add_half_diffuse(graph, pipelines, scene, lighting, volume, images, visibility, extent);
         if (!added) return tl::unexpected(added.error());
         diffuse = *added;
     }
@@ -59,12 +60,12 @@ Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, cons
         "cone trace", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(visibility.ids, graph::Usage::sampled);
-            pass.read(volume_faces, graph::Usage::sampled);
+            read_volume(pass, images);
             pass.read(diffuse.light, graph::Usage::sampled);
             if (options.half_resolution) pass.read(diffuse.places, graph::Usage::sampled);
             pass.read_write(picture, graph::Usage::storage_read_write);
         },
-        [&scene, &lighting, &volume, volume_faces, visibility, picture, diffuse, extent, trace = *pipeline](graph::PassContext& context) {
+        [&scene, &lighting, &volume, images, visibility, picture, diffuse, extent, trace = *pipeline](graph::PassContext& context) {
             const gpu::Binding ids(context.image(visibility.ids), lighting.nearest);
             const auto bindings = select_bindings(*trace, scene,
                                                   {{8, *lighting.frame},
@@ -73,8 +74,9 @@ Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, cons
                                                    {13, context.image(picture)},
                                                    {14, gpu::Binding(context.image(diffuse.light), lighting.nearest)},
                                                    {15, gpu::Binding(context.image(diffuse.places), lighting.nearest)},
-                                                   {20, gpu::Binding(context.image(volume_faces), volume.trilinear)},
-                                                   {21, *volume.data}});
+                                                   {20, gpu::Binding(context.image(images.faces), volume.trilinear)},
+                                                   {21, *volume.data},
+                                                   {22, gpu::Binding(context.image(images.depths), volume.trilinear)}});
             context.commands.dispatch_threads(*trace, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
         });
     return {};

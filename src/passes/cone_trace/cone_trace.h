@@ -12,7 +12,7 @@ struct ConeTraceOptions {
 /// Adds to `picture` the indirect light of what `visibility` shows.
 [[nodiscard]] Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                           const LightingInputs& lighting, const VolumeInputs& volume,
-                                          graph::ImageHandle volume_faces, const Visibility& visibility,
+                                          const VolumeImages& images, const Visibility& visibility,
                                           graph::ImageHandle picture, VkExtent2D extent,
                                           const ConeTraceOptions& options);
 

@@ -45,7 +45,7 @@ Cone lobe_cone(uint index, uint diffuse_cones, ConeLobes albedo, BsdfLobes lobes
     } else if (albedo.refraction != vec3(0.0f)) {
         // The radiance that glass lets through: 1/η² of the refracted beam's, within; leaving it takes that back, and
         // the cone stands for the path through both (docs/gi-theory.md).
-        if (refraction_cone(wo, lobes.alpha, lobes.eta, cone)) share = albedo.refraction;
+        if (refraction_cone(wo, lobes.alpha, lobes.eta, cone)) share = albedo.refraction * cone.weight;
     }
     return cone;
 }

@@ -1,13 +1,14 @@
 // Cones through the voxel volume (docs/gi-theory.md).
 //
-// Along each axis the volume is a stack of layers. What a layer's faces show stands in the middle of the layer, and a
-// cone that passes the middle meets it: it takes the share of the cover that nothing before it took. So a wall is met
-// exactly once, at whatever angle and whatever levels the cone goes through: nothing leaks, nothing counts twice.
+// Along each axis the volume is a stack of layers. A cone that goes through a layer meets what the layer's faces show
+// there once, at the depth where it stands: it takes the share of the cover that nothing before it took. So a wall is
+// met exactly once, at whatever angle and whatever levels the cone goes through: nothing leaks, nothing counts twice.
 #ifndef HELIODON_VOLUME_GLSL
 #define HELIODON_VOLUME_GLSL
 #include "passes/cone_trace/volume_shared.h"
 
 layout(set = 0, binding = 20) uniform sampler3D voxel_faces_texture;
+layout(set = 0, binding = 22) uniform sampler3D voxel_depths_texture;
 layout(set = 0, binding = 21, std430) readonly buffer Volume_ { VolumeData volume; };
 
 /// World to the lattice of the finest voxels.
@@ -24,15 +25,34 @@ float level_holding(vec3 position) {
     return level;
 }
 
+/// Edge of the voxels that a surface's cones have to start past, by `lift` of them. Near a cascade's border it grows to the
+/// next one's, so that cones that leave the cascade have risen past its voxels by then: a cone in the middle of the outer
+/// of nine cells (diffuse_cone) rises 1/√3 on its way.
+float surface_edge(vec3 start, float lift) {
+    const float rise = 0.57735027f;
+    float edge = 1.0f;
+    for (uint c = 0u; c + 1u < volume.cascades; ++c) {
+        const vec3 at = start * exp2(-float(c)) - vec3(volume.cascade[c].base);
+        const vec3 inside = min(at, float(volume.size) - at) - 1.0f;
+        const float border = min(inside.x, min(inside.y, inside.z));
+        if (border >= 0.0f) return edge * (1.0f + max(0.0f, 1.0f - border * rise / lift));
+        edge *= 2.0f;
+    }
+    return edge;
+}
+
 /// Where the cones of a surface start, in finest voxels: past the layers that the surface itself lies in. The middle of
 /// a voxel that a plane of unit normal n passes lies within S/2 of it, S = |nx| + |ny| + |nz|. What the voxel shows along
 /// axis a, linear interpolation spreads one voxel along the two other axes, S − |na| further; the faces show |na|/S of
-/// the plane's area each, so on average over them the plane reaches 3S/2 − 1/S voxels.
-vec3 cone_origin(vec3 position, vec3 geometric) {
+/// the plane's area each, so on average over them the plane reaches 3S/2 − 1/S voxels. `least_edge`: of the voxels that
+/// show the surface, if it is voxels that cones start from.
+vec3 cone_origin(vec3 position, vec3 geometric, float least_edge) {
     const vec3 start = to_lattice(position);
     const float total = abs(geometric.x) + abs(geometric.y) + abs(geometric.z);
-    return start + geometric * ((1.5f * total - 1.0f / total) * exp2(level_holding(start)));
+    const float lift = 1.5f * total - 1.0f / total;
+    return start + geometric * (lift * max(least_edge, surface_edge(start, lift)));
 }
+vec3 cone_origin(vec3 position, vec3 geometric) { return cone_origin(position, geometric, 1.0f); }
 
 /// Texture coordinates of a position in the lattice, on the first face of the cascade that has voxels of `edge`;
 /// linear interpolation stays within the face.
@@ -77,21 +97,45 @@ ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float r
 
     vec3 level = vec3(level_holding(origin + direction * begin));
     vec3 edge = exp2(level);
-    vec3 layer = ceil((start + abs(direction) * begin) / edge - 0.5f);
-    vec3 next = ((layer + 0.5f) * edge - start) * inverse;
+    vec3 layer = floor((start + abs(direction) * begin) / edge);
+    vec3 next = max(((layer + 0.5f) * edge - start) * inverse, vec3(begin));
     while (true) {
         const float t = min(next.x, min(next.y, next.z));
         if (!(t <= end)) break;
-        // The axis whose layer comes first; of several, one. The cone is in the middle of that layer.
+        // The axis whose layer's middle comes first; of several, one.
         const bool x = next.x <= t;
         const bool y = !x && next.y <= t;
         float axis_edge = x ? edge.x : y ? edge.y : edge.z;
         float axis_level = x ? level.x : y ? level.y : level.z;
         const vec3 position = origin + direction * t;
-        vec3 at = face_coordinates(position, axis_edge, axis_level);
-        at.x += x ? side.x : y ? side.y : side.z;
-        at.z += x ? 0.0f : y ? 1.0f / 3.0f : 2.0f / 3.0f;
-        const vec4 face = textureLod(voxel_faces_texture, at, axis_level - (volume.cascades > 1u ? min(axis_level, float(volume.cascades - 1u)) : 0.0f));
+        if (volume.cascades > 1u && level_holding(position) > axis_level) {
+            // Past its cascade an axis goes on in the layer of the next one that holds this layer, if it lies ahead.
+            const bvec3 axis = bvec3(x, y, !x && !y);
+            vec3 outer = floor(0.5f * layer);
+            const vec3 middle = ((outer + 0.5f) * 2.0f * edge - start) * inverse;
+            outer += mix(vec3(0.0f), vec3(1.0f), lessThan(middle, vec3(begin)));
+            layer = mix(layer, outer, axis);
+            edge = mix(edge, 2.0f * edge, axis);
+            level = mix(level, level + 1.0f, axis);
+            next = mix(next, ((layer + 0.5f) * edge - start) * inverse, axis);
+            continue;
+        }
+        const vec3 corner = vec3(x ? side.x : y ? side.y : side.z, 0.0f, x ? 0.0f : y ? 1.0f / 3.0f : 2.0f / 3.0f);
+        const float mip = axis_level - (volume.cascades > 1u ? min(axis_level, float(volume.cascades - 1u)) : 0.0f);
+        const vec3 at = corner + face_coordinates(position, axis_edge, axis_level);
+        vec4 face = textureLod(voxel_faces_texture, at, mip);
+        if (face.a > 0.0f) {
+            // Where the cone meets it, if it does ahead of its origin and within its reach.
+            const float depth = clamp(textureLod(voxel_depths_texture, at, mip).r / face.a, 0.0f, 1.0f);
+            const bool turned = x ? backward.x : y ? backward.y : backward.z;
+            const float there = (x ? layer.x : y ? layer.y : layer.z) + (turned ? 1.0f - depth : depth);
+            const float meets = x ? (there * axis_edge - start.x) * inverse.x
+                                  : y ? (there * axis_edge - start.y) * inverse.y : (there * axis_edge - start.z) * inverse.z;
+            if (meets >= begin && meets <= end)
+                face = textureLod(voxel_faces_texture, corner + face_coordinates(origin + direction * meets, axis_edge, axis_level), mip);
+            else
+                face = vec4(0.0f);
+        }
         if (face.a > 0.0f) {
             const float gained = min(face.a, 1.0f - result.cover);
             result.radiance += face.rgb * (gained / face.a);
@@ -100,8 +144,7 @@ ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float r
         }
         float axis_layer = (x ? layer.x : y ? layer.y : layer.z) + 1.0f;
         // An axis goes to the coarser level where its next layer begins one there, so that each layer counts once.
-        bool coarser = t * radius >= axis_edge && axis_edge < coarsest;
-        if (volume.cascades > 1u) coarser = coarser || level_holding(position) > axis_level;
+        const bool coarser = t * radius >= axis_edge && axis_edge < coarsest;
         if (coarser && fract(0.5f * axis_layer) == 0.0f) {
             axis_layer *= 0.5f;
             axis_edge *= 2.0f;

@@ -13,7 +13,7 @@ void main() {
     const VoxelFace face = voxel_face(push.grid, index / voxel_faces, index % voxel_faces);
     vec3 light = vec3(0.0f);
     if (face.area > 0.0f && face.albedo != vec3(0.0f) && face.normal != vec3(0.0f))
-        light = pi * diffuse_light(cone_origin(face.position, face.normal), face.normal, volume.gather_sets, push.gather_shift).radiance;
+        light = pi * diffuse_light(cone_origin(face.position, face.normal, exp2(float(push.cascade))), face.normal, volume.gather_sets, push.gather_shift).radiance;
     if (push.gather_weight < 1.0f) light = mix(gathered[index].rgb, light, push.gather_weight);
     gathered[index] = vec4(light, 0.0f);
 }

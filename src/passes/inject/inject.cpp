@@ -48,7 +48,7 @@ void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade) {
 }
 
 Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
-                              graph::ImageHandle faces, bool levels) {
+                              const VolumeImages& images, bool levels) {
     auto clear_records = pipelines.compute("passes/inject/clear_records.comp");
     if (!clear_records) return tl::unexpected(clear_records.error());
     auto clear_levels = pipelines.compute("passes/inject/clear_levels.comp");
@@ -62,19 +62,21 @@ Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, co
             pass.read(cascade.surfaces.records, Usage::storage_read);
             pass.read(cascade.shown.levels, Usage::storage_read);
             pass.read(cascade.shown.levels, Usage::indirect);
-            pass.write(faces, Usage::storage_write);
+            pass.write(images.faces, Usage::storage_write);
+            pass.write(images.depths, Usage::storage_write);
         },
-        [cascade, faces, levels, clear_records = *clear_records, clear_levels = *clear_levels](PassContext& context) {
+        [cascade, images, levels, clear_records = *clear_records, clear_levels = *clear_levels](PassContext& context) {
             if (!*cascade.outdated) return;
             const VoxelSurfaces& surfaces = cascade.surfaces;
             const gpu::Buffer& numbers = context.buffer(cascade.shown.numbers);
-            const gpu::Image& image = context.image(faces);
+            const gpu::Image &faces = context.image(images.faces), &depths = context.image(images.depths);
             context.commands.dispatch_indirect(
                 *clear_records, *cascade.constants,
-                {numbers, context.buffer(cascade.shown.cells), context.buffer(surfaces.records), image.mip(0)}, numbers, record_groups);
+                {numbers, context.buffer(cascade.shown.cells), context.buffer(surfaces.records), faces.mip(0),
+                 depths.mip(0)}, numbers, record_groups);
             const gpu::Buffer& lists = context.buffer(cascade.shown.levels);
             for (std::uint32_t level = 1; levels && level < level_count(surfaces.size); ++level)
-                context.commands.dispatch_indirect(*clear_levels, level_constants(cascade, level), {lists, image.mip(level)},
+                context.commands.dispatch_indirect(*clear_levels, level_constants(cascade, level), {lists, faces.mip(level), depths.mip(level)},
                                                    lists, level_groups(level));
         });
     return {};
@@ -82,7 +84,7 @@ Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, co
 
 Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                               const LightingInputs& lighting, const InjectCascade& cascade, const ShadowMaps& shadow_maps,
-                              graph::ImageHandle faces) {
+                              const VolumeImages& images) {
     auto pipeline = pipelines.compute("passes/inject/direct.comp", {{7, lighting.cone_shadows ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
@@ -94,14 +96,14 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
             pass.read(cascade.surfaces.records, Usage::storage_read);
             pass.read(shadow_maps.depth, Usage::sampled);
             pass.read(shadow_maps.slope, Usage::sampled);
-            pass.read(faces, Usage::sampled);
+            read_volume(pass, images);
             pass.read_write(cascade.illuminance, Usage::storage_read_write);
         },
         [&scene, &lighting, cascade, shadow_maps, direct = *pipeline](PassContext& context) {
             const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
             const auto bindings = select_bindings(*direct, scene,
                                                   {{9, *lighting.shadow_views},
-                                                   {22, *lighting.light_grid},
+                                                   {24, *lighting.light_grid},
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
                                                    {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
                                                    {16, numbers},
@@ -109,14 +111,15 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
                                                    {18, context.buffer(cascade.surfaces.records)},
                                                    {19, context.buffer(cascade.illuminance)},
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
-                                                   {21, *lighting.volume->data}});
+                                                   {21, *lighting.volume->data},
+                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)}});
             context.commands.dispatch_indirect(*direct, *cascade.constants, bindings, numbers, face_groups);
         });
     return {};
 }
 
 Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VolumeInputs& volume,
-                        const InjectCascade& cascade, graph::ImageHandle faces) {
+                        const InjectCascade& cascade, const VolumeImages& images) {
     auto pipeline = pipelines.compute("passes/inject/gather.comp");
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
@@ -126,25 +129,26 @@ Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const Sc
             pass.read(cascade.surfaces.numbers, Usage::indirect);
             pass.read(cascade.surfaces.cells, Usage::storage_read);
             pass.read(cascade.surfaces.records, Usage::storage_read);
-            pass.read(faces, Usage::sampled);
+            read_volume(pass, images);
             pass.read_write(cascade.gathered, Usage::storage_read_write);
         },
-        [&scene, &volume, cascade, faces, gather = *pipeline](PassContext& context) {
+        [&scene, &volume, cascade, images, gather = *pipeline](PassContext& context) {
             const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
             const auto bindings = select_bindings(*gather, scene,
                                                   {{16, numbers},
                                                    {17, context.buffer(cascade.surfaces.cells)},
                                                    {18, context.buffer(cascade.surfaces.records)},
                                                    {19, context.buffer(cascade.gathered)},
-                                                   {20, gpu::Binding(context.image(faces), volume.trilinear)},
-                                                   {21, *volume.data}});
+                                                   {20, gpu::Binding(context.image(images.faces), volume.trilinear)},
+                                                   {21, *volume.data},
+                                                   {22, gpu::Binding(context.image(images.depths), volume.trilinear)}});
             context.commands.dispatch_indirect(*gather, *cascade.constants, bindings, numbers, face_groups);
         });
     return {};
 }
 
 Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
-                          graph::ImageHandle faces, bool emission_only) {
+                          const VolumeImages& images, bool emission_only) {
     auto pipeline = pipelines.compute("passes/inject/radiance.comp", {{0, emission_only ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
@@ -156,20 +160,22 @@ Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const 
             pass.read(cascade.surfaces.records, Usage::storage_read);
             pass.read(cascade.illuminance, Usage::storage_read);
             pass.read(cascade.gathered, Usage::storage_read);
-            pass.write(faces, Usage::storage_write);
+            pass.write(images.faces, Usage::storage_write);
+            pass.write(images.depths, Usage::storage_write);
         },
-        [cascade, faces, radiance = *pipeline](PassContext& context) {
+        [cascade, images, radiance = *pipeline](PassContext& context) {
             const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
             context.commands.dispatch_indirect(*radiance, *cascade.constants,
                                                {numbers, context.buffer(cascade.surfaces.cells),
                                                 context.buffer(cascade.surfaces.records), context.buffer(cascade.illuminance),
-                                                context.image(faces).mip(0), context.buffer(cascade.gathered)},
+                                                context.image(images.faces).mip(0), context.image(images.depths).mip(0),
+                                                context.buffer(cascade.gathered)},
                                                numbers, record_groups);
         });
     return {};
 }
 
-Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade, graph::ImageHandle faces) {
+Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade, const VolumeImages& images) {
     auto pipeline = pipelines.compute("passes/inject/filter.comp");
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
@@ -177,15 +183,16 @@ Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const In
         [&](PassBuilder& pass) {
             pass.read(cascade.surfaces.levels, Usage::storage_read);
             pass.read(cascade.surfaces.levels, Usage::indirect);
-            pass.read_write(faces, Usage::storage_read_write);
+            pass.read_write(images.faces, Usage::storage_read_write);
+            pass.read_write(images.depths, Usage::storage_read_write);
         },
-        [cascade, faces, filter = *pipeline](PassContext& context) {
+        [cascade, images, filter = *pipeline](PassContext& context) {
             const gpu::Buffer& lists = context.buffer(cascade.surfaces.levels);
-            const gpu::Image& image = context.image(faces);
+            const gpu::Image &faces = context.image(images.faces), &depths = context.image(images.depths);
             for (std::uint32_t level = 1; level < level_count(cascade.surfaces.size); ++level) {
                 if (level > 1) context.commands.compute_barrier();
                 context.commands.dispatch_indirect(*filter, level_constants(cascade, level),
-                                                   {lists, image.mip(level - 1), image.mip(level)}, lists, level_groups(level));
+                                                   {lists, faces.mip(level - 1), faces.mip(level), depths.mip(level - 1), depths.mip(level)}, lists, level_groups(level));
             }
         });
     return {};

@@ -28,20 +28,20 @@ struct InjectCascade {
 void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade);
 /// If the texture is outdated, empties what it shows of a cascade; `levels`: its coarse levels too.
 [[nodiscard]] Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
-                                            graph::ImageHandle faces, bool levels);
+                                            const VolumeImages& images, bool levels);
 /// Illuminance of one batch of lights (light_first and light_count of the constants) by the resident shadow maps,
 /// or by cones through the volume as it is.
 [[nodiscard]] Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                             const LightingInputs& lighting, const InjectCascade& cascade,
-                                            const ShadowMaps& shadow_maps, graph::ImageHandle faces);
+                                            const ShadowMaps& shadow_maps, const VolumeImages& images);
 /// Replaces `gathered` by what arrives from the volume and the sky.
 [[nodiscard]] Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                      const VolumeInputs& volume, const InjectCascade& cascade, graph::ImageHandle faces);
+                                      const VolumeInputs& volume, const InjectCascade& cascade, const VolumeImages& images);
 /// Writes level 0: emission, and unless `emission_only` what both illuminances reflect.
 [[nodiscard]] Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
-                                        graph::ImageHandle faces, bool emission_only);
+                                        const VolumeImages& images, bool emission_only);
 /// Writes the coarse levels of a cascade from its level 0.
 [[nodiscard]] Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
-                                      graph::ImageHandle faces);
+                                      const VolumeImages& images);
 
 }  // namespace heliodon::passes

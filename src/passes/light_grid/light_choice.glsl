@@ -5,7 +5,7 @@
 #define HELIODON_LIGHT_CHOICE_GLSL
 #include "passes/light_grid/light_grid_shared.h"
 
-layout(set = 0, binding = 22, std430) readonly buffer LightGrid { LightGridHeader light_grid; uint light_sums[]; };
+layout(set = 0, binding = 24, std430) readonly buffer LightGrid { LightGridHeader light_grid; uint light_sums[]; };
 
 /// Picks follow one another at even steps from a random start (systematic sampling): a light with a large share is
 /// picked about as often as it deserves. Few lights are all picked, each once.

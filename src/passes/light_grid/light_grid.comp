@@ -7,7 +7,7 @@
 #include "shading/light.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 22, std430) buffer LightGrid { LightGridHeader header; uint sums[]; };
+layout(set = 0, binding = 24, std430) buffer LightGrid { LightGridHeader header; uint sums[]; };
 
 // All sums stay below 2²⁴, which floats count exactly.
 const float whole = 8388608.0f;

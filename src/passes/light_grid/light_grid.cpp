@@ -37,7 +37,7 @@ Result<void> record_light_grid(gpu::Commands& commands, gpu::Pipelines& pipeline
     const gpu::Access written{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
     const gpu::Access read{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
     commands.memory_barrier(before, written);
-    commands.dispatch_threads(**pipeline, gpu::NoPushConstants{}, select_bindings(**pipeline, scene, {{22, grid}}),
+    commands.dispatch_threads(**pipeline, gpu::NoPushConstants{}, select_bindings(**pipeline, scene, {{24, grid}}),
                               {header.edge * header.edge * header.edge, 1, 1});
     commands.memory_barrier(written, read);
     return {};

@@ -16,9 +16,10 @@ Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, 
                                            {10, gpu::Binding(shadow_depth, lighting.nearest)},
                                            {15, gpu::Binding(shadow_slope, lighting.nearest)},
                                            {11, *lighting.shading_tables},
-                                           {22, *lighting.light_grid},
+                                           {24, *lighting.light_grid},
                                            {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                            {21, *lighting.volume->data},
+                                           {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
                                            {12, sensors}});
     commands.dispatch_threads(**pipeline, push, bindings, {count, 1, 1});
     return {};
@@ -29,7 +30,8 @@ Result<void> record_cone_sensors(gpu::Commands& commands, gpu::Pipelines& pipeli
     auto pipeline = pipelines.compute("passes/sensors/cone_sensors.comp");
     if (!pipeline) return tl::unexpected(pipeline.error());
     const auto bindings = select_bindings(
-        **pipeline, scene, {{12, sensors}, {20, gpu::Binding(*volume.faces, volume.trilinear)}, {21, *volume.data}});
+        **pipeline, scene, {{12, sensors}, {20, gpu::Binding(*volume.faces, volume.trilinear)}, {21, *volume.data},
+                          {22, gpu::Binding(*volume.depths, volume.trilinear)}});
     commands.dispatch_threads(**pipeline, shading::SensorConstants{count, 0, 0, 0}, bindings, {count, 1, 1});
     return {};
 }

@@ -4,7 +4,7 @@ namespace heliodon::passes {
 
 Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                      const LightingInputs& lighting, const Visibility& visibility,
-                                     const ShadowMaps& shadow_maps, graph::ImageHandle volume, VkExtent2D extent, bool aov) {
+                                     const ShadowMaps& shadow_maps, const VolumeImages& volume, VkExtent2D extent, bool aov) {
     auto pipeline = pipelines.compute("passes/shade/shade.comp", {{0, aov ? 1u : 0u}, {7, lighting.cone_shadows ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     const graph::ImageHandle picture = graph.create_image(
@@ -15,7 +15,7 @@ Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipeli
             pass.read(visibility.ids, graph::Usage::sampled);
             pass.read(shadow_maps.depth, graph::Usage::sampled);
             pass.read(shadow_maps.slope, graph::Usage::sampled);
-            pass.read(volume, graph::Usage::sampled);
+            read_volume(pass, volume);
             pass.write(picture, graph::Usage::storage_write);
         },
         [&scene, &lighting, visibility, shadow_maps, picture, extent, shade = *pipeline](graph::PassContext& context) {
@@ -25,10 +25,11 @@ Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipeli
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
                                                    {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
                                                    {11, *lighting.shading_tables},
-                                                   {22, *lighting.light_grid},
+                                                   {24, *lighting.light_grid},
                                                    {16, *lighting.visible_lights},
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},
+                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
                                                    {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
                                                    {13, context.image(picture)}});
             context.commands.dispatch_threads(*shade, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});

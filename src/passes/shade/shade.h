@@ -23,7 +23,7 @@ struct LightingInputs {
 /// picture, RGBA32F radiance in cd/m², alpha = coverage; with `aov` what FrameData::aov asks for instead.
 [[nodiscard]] Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                                    const LightingInputs& lighting, const Visibility& visibility,
-                                                   const ShadowMaps& shadow_maps, graph::ImageHandle volume, VkExtent2D extent,
+                                                   const ShadowMaps& shadow_maps, const VolumeImages& volume, VkExtent2D extent,
                                                    bool aov);
 
 }  // namespace heliodon::passes

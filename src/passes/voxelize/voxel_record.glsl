@@ -13,6 +13,7 @@ struct VoxelFace {
     vec3 emission;   // radiance × cover in units of the grid's emission: 1 face of emitters at most
     vec3 normal;     // unit
     vec3 position;   // world, on the surface's outer side
+    vec3 within;     // the centroid in the voxel, 0 … 1
 };
 
 uvec3 record_voxel(uint record, uint size) {
@@ -26,7 +27,7 @@ vec3 record_vector(uint first) {
 
 VoxelFace voxel_face(VoxelGrid grid, uint record, uint face) {
     const uint first = (record * voxel_faces + face) * voxel_field_count;
-    VoxelFace result = VoxelFace(0.0f, vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f));
+    VoxelFace result = VoxelFace(0.0f, vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f));
     if (records[first] == 0u) return result;
     result.area = float(records[first]) * (1.0f / voxel_fixed_one);
     const float inverse = 1.0f / result.area;
@@ -41,8 +42,8 @@ VoxelFace voxel_face(VoxelGrid grid, uint record, uint face) {
     // The centroid of a curved piece lies under its surface by no more than the sagitta of a chord as long as
     // the voxel's diagonal, and the fixed point places it with a finite step: step over both.
     const float under = 0.5f * sqrt(3.0f) * (sqrt(max(0.0f, 1.0f - straight * straight)) + 4.0f / float(records[first]));
-    const vec3 within = record_vector(first + voxel_field_position) * inverse;
-    result.position = grid.origin + grid.voxel_m * (vec3(ivec3(record_voxel(record, grid.size)) + grid.base) + within + result.normal * under);
+    result.within = record_vector(first + voxel_field_position) * inverse;
+    result.position = grid.origin + grid.voxel_m * (vec3(ivec3(record_voxel(record, grid.size)) + grid.base) + result.within + result.normal * under);
     return result;
 }
 
