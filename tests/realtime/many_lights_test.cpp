@@ -122,8 +122,7 @@ TEST(LiveManyLights, ShadowsOfAMovedSheetAreRightAfterAsManyFramesAsTheirMapsTak
     for (const std::string& message : (*device)->validation_messages()) ADD_FAILURE() << message;
 }
 
-TEST_F(ManyLights, MapsStayWhereTheyAreWhileLightsChangeTheirStrength) {
-    // In turns: the first lights' maps are rendered again, the other lights' shine through theirs all the same.
+TEST_F(ManyLights, TwiceTheLightIsTwiceThePicture) {
     Canopy canopy;
     RealtimeOptions options;
     options.width = options.height = 24;
