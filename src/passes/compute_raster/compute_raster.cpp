@@ -32,12 +32,13 @@ glm::uvec3 spread(std::uint64_t threads, std::uint32_t layers = 1) {
 struct ComputeRaster {
     const SceneInputs& scene;
     const ComputeRasterInputs& inputs;
-    graph::BufferHandle keys, strips;
-    const gpu::ComputePipeline *triangles = nullptr, *large = nullptr, *resolve = nullptr;
+    graph::BufferHandle keys, strips, large_triangles;
+    const gpu::ComputePipeline *triangles = nullptr, *strip_rows = nullptr, *resolve = nullptr;
 
     void declare(PassBuilder& pass) const {
         pass.read_write(keys, Usage::storage_read_write);
         pass.read_write(strips, Usage::storage_read_write);
+        pass.write(large_triangles, Usage::storage_write);
     }
     /// Draws all batches; `outputs`: what the resolving shader writes.
     void record(PassContext& context, const std::vector<NumberedBinding>& outputs) const;
@@ -46,18 +47,18 @@ struct ComputeRaster {
 void ComputeRaster::record(PassContext& context, const std::vector<NumberedBinding>& outputs) const {
     gpu::Commands& commands = context.commands;
     std::vector<NumberedBinding> own{{8, *inputs.views}, {12, *inputs.triangle_ranges}, {13, context.buffer(keys)},
-                                     {14, context.buffer(strips)}};
+                                     {14, context.buffer(strips)}, {17, context.buffer(large_triangles)}};
     own.insert(own.end(), outputs.begin(), outputs.end());
     for (std::size_t i = 0; i < inputs.batches.size(); ++i) {
         const RasterBatch& batch = inputs.batches[i];
         const ComputeRasterConstants push{inputs.range_count, inputs.triangle_count, batch.view_first,  batch.view_count,
-                                          batch.key_count,    inputs.strip_capacity, inputs.random_seed};
+                                          batch.key_count,    inputs.strip_capacity, inputs.large_capacity, inputs.random_seed};
         if (i > 0) commands.compute_barrier();
         if (inputs.triangle_count > 0) {
             const std::uint32_t view_groups = (batch.view_count + shading::raster_views_a_thread - 1) / shading::raster_views_a_thread;
             commands.dispatch(*triangles, push, select_bindings(*triangles, scene, own), spread(inputs.triangle_count, view_groups));
             commands.compute_barrier();
-            commands.dispatch(*large, push, select_bindings(*large, scene, own), {shading::raster_strip_groups, 1, 1});
+            commands.dispatch(*strip_rows, push, select_bindings(*strip_rows, scene, own), {shading::raster_strip_groups, 1, 1});
             commands.compute_barrier();
         }
         commands.dispatch(*resolve, push, select_bindings(*resolve, scene, own), spread(batch.key_count));
@@ -66,14 +67,14 @@ void ComputeRaster::record(PassContext& context, const std::vector<NumberedBindi
 
 Result<ComputeRaster> begin(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const ComputeRasterInputs& inputs,
                             const std::string& name, std::uint64_t key_count, bool keeps_slope) {
-    ComputeRaster self{scene, inputs, {}, {}};
+    ComputeRaster self{scene, inputs, {}, {}, {}};
     const gpu::Specialization specialization{{0, keeps_slope ? 1u : 0u}, {1, inputs.tests_opacity ? 1u : 0u}};
     auto triangles = pipelines.compute("passes/compute_raster/triangles.comp", specialization);
     if (!triangles) return tl::unexpected(triangles.error());
     self.triangles = *triangles;
-    auto large = pipelines.compute("passes/compute_raster/strips.comp", specialization);
-    if (!large) return tl::unexpected(large.error());
-    self.large = *large;
+    auto strip_rows = pipelines.compute("passes/compute_raster/strips.comp", specialization);
+    if (!strip_rows) return tl::unexpected(strip_rows.error());
+    self.strip_rows = *strip_rows;
     auto resolve = pipelines.compute(keeps_slope ? "passes/compute_raster/resolve_shadow.comp"
                                                  : "passes/compute_raster/resolve_visibility.comp");
     if (!resolve) return tl::unexpected(resolve.error());
@@ -81,6 +82,7 @@ Result<ComputeRaster> begin(graph::Graph& graph, gpu::Pipelines& pipelines, cons
     // Zero at first, and left so by each frame.
     self.keys = graph.create_persistent_buffer({name + " keys", key_count * key_bytes});
     self.strips = graph.create_persistent_buffer({name + " strips", sizeof(shading::RasterStrips) + inputs.strip_capacity * sizeof(glm::uvec2)});
+    self.large_triangles = graph.create_buffer({name + " large triangles", inputs.large_capacity * sizeof(shading::WindowTriangle)});
     return self;
 }
 
@@ -111,8 +113,7 @@ std::vector<RasterBatch> raster_batches(std::span<RasterView> views, std::uint64
     std::vector<RasterBatch> batches;
     for (std::uint32_t i = 0; i < views.size(); ++i) {
         const std::uint32_t keys = views[i].width * views[i].height;
-        if (batches.empty() || batches.back().key_count + std::uint64_t{keys} > key_capacity ||
-            batches.back().view_count == shading::raster_most_views)
+        if (batches.empty() || batches.back().key_count + std::uint64_t{keys} > key_capacity)
             batches.push_back({i, 0, 0});
         views[i].first_key = batches.back().key_count;
         batches.back().key_count += keys;

@@ -20,8 +20,9 @@ struct ComputeRasterInputs {
     const gpu::Buffer* views = nullptr;  ///< RasterView
     std::vector<RasterBatch> batches;
     std::uint32_t random_seed = 0;  ///< of the share of light that blended surfaces let through
-    bool tests_opacity = false;  ///< something is alpha-masked or blended; like the next, of the passes when they are added
-    std::uint32_t strip_capacity = 1 << 20;  ///< of large triangles; where more are wanted, drawing is slower
+    bool tests_opacity = false;  ///< something is alpha-masked or blended; read when passes are added, as are the next
+    /// Room for large triangles and their strips; where more is wanted, drawing is slower.
+    std::uint32_t large_capacity = 1 << 18, strip_capacity = 1 << 20;
 };
 
 /// Depth maps that compute may write; looked up as those of shadow_depth_format.

@@ -25,14 +25,30 @@ struct ComputeRasterConstants {
     uint view_count;
     uint key_count;
     uint strip_capacity;
+    uint large_capacity;
     uint random_seed;
 };
 
-/// First words of the list of strips; one uvec2 a strip follows: the triangle's number; bits 0 to 15 the strip, 16 to 31
-/// the view, counted from view_first.
+/// A triangle, or what clipping left of it, in the window of a view.
+struct WindowTriangle {
+    ivec2 a;  // corners in sub-pixels, y down
+    ivec2 b;  // clockwise
+    ivec2 c;
+    vec2 slope;   // of the depth, a pixel
+    vec3 depth;   // of the corners
+    uint number;  // of the triangle in the ranges
+    ivec2 low;    // pixels whose centres its box holds, within the view: first and last
+    ivec2 high;
+    uint view;  // counted from view_first
+    uint padding0;
+    uint padding1;
+    uint padding2;
+};
+
+/// First words of the list of strips; one uvec2 a strip follows: its large triangle, and its first row.
 struct RasterStrips {
     uint demand;
-    uint padding;
+    uint large_demand;  // large triangles
 };
 
 // Vertices snap to 1/256 pixel, as graphics hardware does (VkPhysicalDeviceLimits::subPixelPrecisionBits).
@@ -41,8 +57,7 @@ SHADING_CONST int raster_subpixels = 256;
 SHADING_CONST int raster_small_pixels = 64;
 SHADING_CONST int raster_strip_rows = 16;
 SHADING_CONST uint raster_views_a_thread = 6u;      // a cube's
-SHADING_CONST uint raster_strip_groups = 4096u;     // they share the strips
-SHADING_CONST uint raster_most_views = 65536u;      // drawn together
+SHADING_CONST uint raster_strip_groups = 16384u;    // they share the strips
 
 SHADING_END
 #endif

@@ -16,12 +16,12 @@ layout(set = 0, binding = 8, std430) readonly buffer Views { RasterView views[];
 /// A pixel's nearest: its depth's bits in the high half; 0 where nothing stands.
 layout(set = 0, binding = 13, std430) buffer Keys { uint64_t keys[]; };
 layout(set = 0, binding = 14, std430) buffer Strips { RasterStrips strips; uvec2 strip[]; };
+layout(set = 0, binding = 17, std430) buffer LargeTriangles { WindowTriangle large[]; };
 layout(push_constant) uniform Push { ComputeRasterConstants push; };
 
 struct RasterTriangle {
     uint number;
     uint instance;
-    uint primitive;
     uvec3 index;
     vec4 world[3];
     vec4 clip[3];
@@ -40,13 +40,16 @@ RasterTriangle load_triangle(uint number) {
     const GeometryData geometry = geometry_table[instance.geometry];
     triangle.number = number;
     triangle.instance = range.instance;
-    triangle.primitive = number - range.first_triangle;
-    const uint first = geometry.first_index + 3u * triangle.primitive;
+    const uint first = geometry.first_index + 3u * (number - range.first_triangle);
     triangle.index = uvec3(index_table[first], index_table[first + 1u], index_table[first + 2u]);
     for (int i = 0; i < 3; ++i)
         triangle.world[i] = transformed(instance.object_to_world, vec4(fetch_vec3(geometry.position_offset, triangle.index[i]), 1.0f));
     triangle.tested = tests_opacity && (material_table[instance.material].flags & (material_flag_alpha_mask | material_flag_alpha_blend)) != 0u;
     return triangle;
+}
+
+void project(inout RasterTriangle triangle, RasterView view) {
+    for (int i = 0; i < 3; ++i) triangle.clip[i] = transformed(view.world_to_clip, triangle.world[i]);
 }
 
 /// The planes that a corner is outside of, a bit each: those of the view …
@@ -71,16 +74,6 @@ uint outside_clip(vec4 p, float guard) {
     return planes;
 }
 
-struct WindowTriangle {
-    ivec2 a;  // sub-pixels, y down
-    ivec2 b;  // clockwise
-    ivec2 c;
-    vec3 depth;
-    vec2 slope;  // of the depth, a pixel
-    ivec2 low;   // pixels whose centres its box holds, within the view: first and last
-    ivec2 high;
-};
-
 vec3 window_position(vec4 clip, RasterView view) {
     precise vec3 position = clip.xyz / clip.w;
     position.xy = (position.xy * vec2(0.5f, -0.5f) + 0.5f) * vec2(view.width, view.height);
@@ -88,7 +81,7 @@ vec3 window_position(vec4 clip, RasterView view) {
 }
 
 /// False where it covers no pixel's centre for certain.
-bool to_window(vec4 c0, vec4 c1, vec4 c2, RasterView view, out WindowTriangle triangle) {
+bool to_window(vec4 c0, vec4 c1, vec4 c2, RasterView view, inout WindowTriangle triangle) {
     const vec3 w0 = window_position(c0, view);
     vec3 w1 = window_position(c1, view);
     vec3 w2 = window_position(c2, view);
@@ -177,7 +170,7 @@ bool is_there(RasterTriangle triangle, RasterView view, ivec2 pixel) {
     return unit_interval(alpha_seed(uvec2(pixel) + uvec2(view.corner_x, view.corner_y), triangle.instance, push.random_seed + view.number)) < opacity;
 }
 
-/// A covered pixel.
+/// A covered pixel. `triangle` is looked at where opacity counts.
 void draw(RasterTriangle triangle, WindowTriangle window, RasterView view, ivec2 pixel) {
     const vec2 from = vec2(pixel * raster_subpixels + raster_subpixels / 2 - window.a) * (1.0f / float(raster_subpixels));
     const float lowest = min(window.depth.x, min(window.depth.y, window.depth.z));
@@ -185,8 +178,8 @@ void draw(RasterTriangle triangle, WindowTriangle window, RasterView view, ivec2
     const float depth = clamp(window.depth.x + dot(window.slope, from), lowest, highest);
     if (!(depth > 0.0f)) return;  // beyond the far plane
     if (tests_opacity && triangle.tested && !is_there(triangle, view, pixel)) return;
-    uint low = ~triangle.number;  // of what lies in one plane the first is seen
-    if (keeps_slope) low = packHalf2x16(clamp(window.slope / depth, vec2(-60000.0f), vec2(60000.0f)));
+    uint low = ~window.number;  // of what lies in one plane the first is seen
+    if (keeps_slope) low = packHalf2x16(clamp(window.slope * (1.0f / depth), vec2(-60000.0f), vec2(60000.0f)));
     const uint place = view.first_key + uint(pixel.y) * view.width + uint(pixel.x);
     atomicMax(keys[place], packUint2x32(uvec2(low, floatBitsToUint(depth))));
 }
@@ -218,8 +211,9 @@ const uint place_large = 2u;    // a workgroup does; `window` is known
 const uint place_clipped = 3u;  // a workgroup does, after clipping
 
 /// Projects the triangle, and says what is to be done with it.
-uint place_in(RasterView view, inout RasterTriangle triangle, out WindowTriangle window) {
-    for (int i = 0; i < 3; ++i) triangle.clip[i] = transformed(view.world_to_clip, triangle.world[i]);
+uint place_in(RasterView view, inout RasterTriangle triangle, inout WindowTriangle window) {
+    window.number = triangle.number;
+    project(triangle, view);
     if ((outside_view(triangle.clip[0]) & outside_view(triangle.clip[1]) & outside_view(triangle.clip[2])) != 0u) return place_nowhere;
     if ((outside_clip(triangle.clip[0], view.guard) | outside_clip(triangle.clip[1], view.guard) |
          outside_clip(triangle.clip[2], view.guard)) != 0u)

@@ -14,7 +14,7 @@ layout(push_constant) uniform Push { ComputeRasterConstants push; };
 bool take_key(out uvec2 key, out ivec3 pixel) {
     const uint place = linear_invocation();
     if (place >= push.key_count) return false;
-    if (place == 0u) strips.demand = 0u;
+    if (place == 0u) strips = RasterStrips(0u, 0u);
     uint first = push.view_first;
     uint end = push.view_first + push.view_count;
     while (end - first > 1u) {

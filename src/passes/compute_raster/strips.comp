@@ -49,27 +49,38 @@ void draw_rows(RasterTriangle triangle, WindowTriangle window, RasterView view, 
     }
 }
 
-/// Rows `rows.x` to `rows.y` of a triangle that is not small.
-void draw_large(RasterTriangle triangle, RasterView view, ivec2 rows) {
-    WindowTriangle window;
-    const uint place = place_in(view, triangle, window);
-    if (place != place_large && place != place_clipped) return;
-    ClipPolygon polygon;
-    polygon.count = 3;
-    if (place == place_clipped) polygon = clip_triangle(triangle, view.guard);
-    for (int i = 2; i < polygon.count; ++i) {
-        if (place == place_clipped && !to_window(polygon.corners[0], polygon.corners[i - 1], polygon.corners[i], view, window)) continue;
-        draw_rows(triangle, window, view, rows);
+void draw_listed() {
+    for (uint i = gl_WorkGroupID.x; i < strips.demand; i += gl_NumWorkGroups.x) {
+        const WindowTriangle window = large[strip[i].x];
+        const RasterView view = views[push.view_first + window.view];
+        RasterTriangle triangle;
+        if (tests_opacity) {
+            triangle = load_triangle(window.number);
+            project(triangle, view);
+        }
+        const int first_row = int(strip[i].y);
+        draw_rows(triangle, window, view, ivec2(first_row, first_row + raster_strip_rows - 1));
+    }
+}
+
+void draw_all() {
+    for (uint i = gl_WorkGroupID.x; i < push.triangle_count * push.view_count; i += gl_NumWorkGroups.x) {
+        const RasterView view = views[push.view_first + i % push.view_count];
+        RasterTriangle triangle = load_triangle(i / push.view_count);
+        WindowTriangle window;
+        const uint place = place_in(view, triangle, window);
+        if (place != place_large && place != place_clipped) continue;
+        ClipPolygon polygon;
+        polygon.count = 3;
+        if (place == place_clipped) polygon = clip_triangle(triangle, view.guard);
+        for (int k = 2; k < polygon.count; ++k) {
+            if (place == place_clipped && !to_window(polygon.corners[0], polygon.corners[k - 1], polygon.corners[k], view, window)) continue;
+            draw_rows(triangle, window, view, ivec2(window.low.y, window.high.y));
+        }
     }
 }
 
 void main() {
-    const bool listed = strips.demand <= push.strip_capacity;
-    const uint count = listed ? strips.demand : push.triangle_count * push.view_count;
-    for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
-        const uint number = listed ? strip[i].x : i / push.view_count;
-        const RasterView view = views[push.view_first + (listed ? strip[i].y >> 16 : i % push.view_count)];
-        const int first_row = listed ? int(strip[i].y & 0xffffu) * raster_strip_rows : 0;
-        draw_large(load_triangle(number), view, ivec2(first_row, listed ? first_row + raster_strip_rows - 1 : int(view.height) - 1));
-    }
+    if (strips.demand <= push.strip_capacity && strips.large_demand <= push.large_capacity) draw_listed();
+    else draw_all();
 }

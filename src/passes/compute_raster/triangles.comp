@@ -1,17 +1,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// An invocation a triangle: small ones are drawn at once, others listed as strips.
-#include "passes/voxelize/linear_groups.glsl"
+// An invocation a triangle: small ones are drawn at once, others clipped where they must be, and listed as strips.
 #include "passes/compute_raster/raster_triangle.glsl"
+#include "passes/compute_raster/clip_triangle.glsl"
+#include "passes/voxelize/linear_groups.glsl"
 
 layout(local_size_x = 64) in;
 
-void list_strips(uint number, uint view, ivec2 rows) {
-    const uint first_strip = uint(rows.x / raster_strip_rows);
-    const uint count = uint(rows.y / raster_strip_rows) - first_strip + 1u;
-    const uint place = atomicAdd(strips.demand, count);
-    const uint room = push.strip_capacity - min(place, push.strip_capacity);
-    for (uint i = 0u; i < min(count, room); ++i) strip[place + i] = uvec2(number, view << 16 | (first_strip + i));
+/// Where there is no room, the demand says so.
+void list_strips(WindowTriangle window) {
+    const uint place = atomicAdd(strips.large_demand, 1u);
+    if (place < push.large_capacity) large[place] = window;
+    const int count = (window.high.y - window.low.y) / raster_strip_rows + 1;
+    const uint first = atomicAdd(strips.demand, uint(count));
+    for (int i = 0; i < count && first + uint(i) < push.strip_capacity; ++i)
+        strip[first + uint(i)] = uvec2(place, window.low.y + i * raster_strip_rows);
 }
 
 void main() {
@@ -23,10 +26,16 @@ void main() {
     for (uint i = first; i < end; ++i) {
         const RasterView view = views[push.view_first + i];
         WindowTriangle window;
-        switch (place_in(view, triangle, window)) {
-            case place_small: draw_box(triangle, window, view); break;
-            case place_large: list_strips(number, i, ivec2(window.low.y, window.high.y)); break;
-            case place_clipped: list_strips(number, i, ivec2(0, int(view.height) - 1)); break;  // its box is not known yet
+        window.view = i;
+        const uint place = place_in(view, triangle, window);
+        if (place == place_small) {
+            draw_box(triangle, window, view);
+        } else if (place == place_large) {
+            list_strips(window);
+        } else if (place == place_clipped) {
+            const ClipPolygon polygon = clip_triangle(triangle, view.guard);
+            for (int k = 2; k < polygon.count; ++k)
+                if (to_window(polygon.corners[0], polygon.corners[k - 1], polygon.corners[k], view, window)) list_strips(window);
         }
     }
 }
