@@ -122,17 +122,22 @@ ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float r
         }
         const vec3 corner = vec3(x ? side.x : y ? side.y : side.z, 0.0f, x ? 0.0f : y ? 1.0f / 3.0f : 2.0f / 3.0f);
         const float mip = axis_level - (volume.cascades > 1u ? min(axis_level, float(volume.cascades - 1u)) : 0.0f);
-        const vec3 at = corner + face_coordinates(position, axis_edge, axis_level);
+        // Along the axis a layer's texels are looked up in their middle, wherever the face stands: layers do not mix.
+        const float here = x ? layer.x : y ? layer.y : layer.z;
+        const bool turned = x ? backward.x : y ? backward.y : backward.z;
+        const float forward_middle = (here + 0.5f) * axis_edge;
+        const vec3 of_layer = vec3(turned ? wide - forward_middle : forward_middle);
+        const bvec3 axis = bvec3(x, y, !x && !y);
+        const vec3 at = corner + face_coordinates(mix(position, of_layer, axis), axis_edge, axis_level);
         vec4 face = textureLod(voxel_faces_texture, at, mip);
         if (face.a > 0.0f) {
             // Where the cone meets it, if it does ahead of its origin and within its reach.
             const float depth = clamp(textureLod(voxel_depths_texture, at, mip).r / face.a, 0.0f, 1.0f);
-            const bool turned = x ? backward.x : y ? backward.y : backward.z;
-            const float there = (x ? layer.x : y ? layer.y : layer.z) + (turned ? 1.0f - depth : depth);
+            const float there = here + (turned ? 1.0f - depth : depth);
             const float meets = x ? (there * axis_edge - start.x) * inverse.x
                                   : y ? (there * axis_edge - start.y) * inverse.y : (there * axis_edge - start.z) * inverse.z;
             if (meets >= begin && meets <= end)
-                face = textureLod(voxel_faces_texture, corner + face_coordinates(origin + direction * meets, axis_edge, axis_level), mip);
+                face = textureLod(voxel_faces_texture, corner + face_coordinates(mix(origin + direction * meets, of_layer, axis), axis_edge, axis_level), mip);
             else
                 face = vec4(0.0f);
         }
