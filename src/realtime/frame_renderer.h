@@ -158,7 +158,8 @@ private:
     [[nodiscard]] Result<void> choose_rasterizer();
     [[nodiscard]] Result<void> list_raster_triangles();
     [[nodiscard]] Result<void> place_raster_views(passes::ComputeRasterInputs& inputs, GrowingBuffer& buffer,
-                                                  std::vector<shading::RasterView> views);
+                                                  std::vector<shading::RasterView> views, std::uint64_t key_capacity);
+    [[nodiscard]] std::uint64_t shadow_key_capacity(const GraphKey& key) const;
     [[nodiscard]] Result<void> place_raster_camera(const glm::mat4& world_to_clip);
     [[nodiscard]] Result<void> place_raster_shadows(std::span<const shading::ShadowViewData> views);
     [[nodiscard]] Result<void> add_shadow_maps(graph::Graph& graph, const passes::ShadowMaps& maps);

@@ -47,8 +47,8 @@ Result<void> FrameRenderer::list_raster_triangles() {
 }
 
 Result<void> FrameRenderer::place_raster_views(passes::ComputeRasterInputs& inputs, GrowingBuffer& buffer,
-                                               std::vector<shading::RasterView> views) {
-    inputs.batches = passes::raster_batches(views, passes::raster_key_capacity(device_));
+                                               std::vector<shading::RasterView> views, std::uint64_t key_capacity) {
+    inputs.batches = passes::raster_batches(views, key_capacity);
     inputs.views = &buffer.buffer();
     if (auto done = buffer.reserve(device_, views.size() * sizeof(shading::RasterView), 0); !done) return done;
     return views.empty() ? Result<void>{} : device_.upload<shading::RasterView>(buffer.buffer(), views);
@@ -56,8 +56,10 @@ Result<void> FrameRenderer::place_raster_views(passes::ComputeRasterInputs& inpu
 
 Result<void> FrameRenderer::place_raster_camera(const glm::mat4& world_to_clip) {
     if (!key_.computed_visibility) return {};
+    const std::uint64_t pixels = std::uint64_t(key_.width) * key_.height;
     return place_raster_views(camera_raster_, camera_raster_view_,
-                              {passes::raster_view(world_to_clip, {0, 0}, {wanted_.width, wanted_.height}, 0, 0)});
+                              {passes::raster_view(world_to_clip, {0, 0}, {key_.width, key_.height}, 0, 0)},
+                              passes::raster_key_capacity(device_, pixels, 1));
 }
 
 Result<void> FrameRenderer::place_raster_shadows(std::span<const shading::ShadowViewData> views) {
@@ -67,13 +69,17 @@ Result<void> FrameRenderer::place_raster_shadows(std::span<const shading::Shadow
         raster_views.push_back(passes::raster_view(view.world_to_clip, {view.corner_x, view.corner_y}, glm::uvec2(view.size),
                                                    view.layer, static_cast<std::uint32_t>(raster_views.size())));
     shadow_raster_.random_seed = shadow_inputs_.random_seed;
-    return place_raster_views(shadow_raster_, shadow_raster_views_, std::move(raster_views));
+    return place_raster_views(shadow_raster_, shadow_raster_views_, std::move(raster_views), shadow_key_capacity(key_));
+}
+
+std::uint64_t FrameRenderer::shadow_key_capacity(const GraphKey& key) const {
+    const std::uint64_t texels = std::uint64_t{key.shadow_layers} * key.shadow_size * key.shadow_size;
+    return passes::raster_key_capacity(device_, texels, key.shadow_views);
 }
 
 Result<void> FrameRenderer::add_shadow_maps(graph::Graph& graph, const passes::ShadowMaps& maps) {
-    const std::uint64_t texels = std::uint64_t{wanted_.shadow_layers} * wanted_.shadow_size * wanted_.shadow_size;
     if (wanted_.computed_shadows)
-        return passes::add_shadow_by_compute(graph, pipelines_, inputs_, shadow_raster_, maps, texels);
+        return passes::add_shadow_by_compute(graph, pipelines_, inputs_, shadow_raster_, maps, shadow_key_capacity(wanted_));
     auto lists = passes::add_cull(graph, pipelines_, inputs_, {wanted_.shadow_views, wanted_.instance_capacity, true},
                                   shadow_cull_views_, shadow_inputs_.view_count);
     if (!lists) return tl::unexpected(lists.error());

@@ -22,6 +22,10 @@ constexpr float largest_coordinate_px = 16384;
 // … and within twice the view, so that depths interpolated there lose little.
 constexpr float widest_guard = 2;
 
+std::uint64_t whole_blocks(std::uint64_t keys) {
+    return (keys + shading::raster_key_block - 1) / shading::raster_key_block * shading::raster_key_block;
+}
+
 /// Workgroups spread over rows as linear_groups.glsl counts them.
 glm::uvec3 spread(std::uint64_t threads, std::uint32_t layers = 1) {
     const auto groups = static_cast<std::uint32_t>((threads + threads_a_group - 1) / threads_a_group);
@@ -61,7 +65,8 @@ void ComputeRaster::record(PassContext& context, const std::vector<NumberedBindi
             commands.dispatch(*strip_rows, push, select_bindings(*strip_rows, scene, own), {shading::raster_strip_groups, 1, 1});
             commands.compute_barrier();
         }
-        commands.dispatch(*resolve, push, select_bindings(*resolve, scene, own), spread(batch.key_count));
+        commands.dispatch(*resolve, push, select_bindings(*resolve, scene, own),
+                          spread(batch.key_count / (shading::raster_key_block / threads_a_group)));
     }
 }
 
@@ -88,12 +93,13 @@ Result<ComputeRaster> begin(graph::Graph& graph, gpu::Pipelines& pipelines, cons
 
 }  // namespace
 
-std::uint64_t raster_key_capacity(const gpu::Device& device) {
-    return std::min<std::uint64_t>(key_budget_bytes, device.limits().maxStorageBufferRange) / key_bytes;
+std::uint64_t raster_key_capacity(const gpu::Device& device, std::uint64_t pixels, std::uint64_t views) {
+    const std::uint64_t most = std::min<std::uint64_t>(key_budget_bytes, device.limits().maxStorageBufferRange) / key_bytes;
+    return std::min(most, whole_blocks(pixels + views * (shading::raster_key_block - 1)));
 }
 
 bool can_raster_by_compute(const gpu::Device& device, std::uint64_t pixels_a_view) {
-    return device.info().buffer_int64_atomics && pixels_a_view <= raster_key_capacity(device);
+    return device.info().buffer_int64_atomics && whole_blocks(pixels_a_view) <= raster_key_capacity(device, ~0u, 1);
 }
 
 RasterView raster_view(const glm::mat4& world_to_clip, glm::uvec2 corner, glm::uvec2 size, std::uint32_t layer, std::uint32_t number) {
@@ -112,7 +118,7 @@ RasterView raster_view(const glm::mat4& world_to_clip, glm::uvec2 corner, glm::u
 std::vector<RasterBatch> raster_batches(std::span<RasterView> views, std::uint64_t key_capacity) {
     std::vector<RasterBatch> batches;
     for (std::uint32_t i = 0; i < views.size(); ++i) {
-        const std::uint32_t keys = views[i].width * views[i].height;
+        const auto keys = static_cast<std::uint32_t>(whole_blocks(views[i].width * views[i].height));
         if (batches.empty() || batches.back().key_count + std::uint64_t{keys} > key_capacity)
             batches.push_back({i, 0, 0});
         views[i].first_key = batches.back().key_count;
@@ -124,7 +130,8 @@ std::vector<RasterBatch> raster_batches(std::span<RasterView> views, std::uint64
 
 Result<Visibility> add_visibility_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                              const ComputeRasterInputs& inputs, VkExtent2D extent) {
-    auto raster = begin(graph, pipelines, scene, inputs, "visibility", std::uint64_t{extent.width} * extent.height, false);
+    auto raster = begin(graph, pipelines, scene, inputs, "visibility",
+                        whole_blocks(std::uint64_t{extent.width} * extent.height), false);
     if (!raster) return tl::unexpected(raster.error());
     Visibility result;
     result.ids = graph.create_image({.name = "visibility", .format = VK_FORMAT_R32G32_UINT, .extent = {extent.width, extent.height, 1}});
@@ -141,9 +148,8 @@ Result<Visibility> add_visibility_by_compute(graph::Graph& graph, gpu::Pipelines
 }
 
 Result<void> add_shadow_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                   const ComputeRasterInputs& inputs, const ShadowMaps& maps, std::uint64_t texels) {
-    auto raster = begin(graph, pipelines, scene, inputs, "shadow",
-                        std::min(texels, raster_key_capacity(pipelines.device())), true);
+                                   const ComputeRasterInputs& inputs, const ShadowMaps& maps, std::uint64_t key_capacity) {
+    auto raster = begin(graph, pipelines, scene, inputs, "shadow", key_capacity, true);
     if (!raster) return tl::unexpected(raster.error());
     graph.add_pass(
         "shadow", graph::PassKind::compute,

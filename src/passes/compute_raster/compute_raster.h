@@ -30,8 +30,8 @@ inline constexpr VkFormat computed_depth_format = VK_FORMAT_R32_SFLOAT;
 
 /// Whether the device has 64-bit atomics on buffers, and binds the keys of a view of so many pixels.
 [[nodiscard]] bool can_raster_by_compute(const gpu::Device& device, std::uint64_t pixels_a_view);
-/// Pixels of the views that are drawn together at most.
-[[nodiscard]] std::uint64_t raster_key_capacity(const gpu::Device& device);
+/// Keys of views drawn together at most: what `views` of so many pixels altogether need, or the device binds.
+[[nodiscard]] std::uint64_t raster_key_capacity(const gpu::Device& device, std::uint64_t pixels, std::uint64_t views);
 /// A view of `size` pixels at `corner` of the picture or of a layer.
 [[nodiscard]] shading::RasterView raster_view(const glm::mat4& world_to_clip, glm::uvec2 corner, glm::uvec2 size,
                                               std::uint32_t layer, std::uint32_t number);
@@ -43,8 +43,8 @@ inline constexpr VkFormat computed_depth_format = VK_FORMAT_R32_SFLOAT;
 [[nodiscard]] Result<Visibility> add_visibility_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                                            const ComputeRasterInputs& inputs, VkExtent2D extent);
 
-/// add_shadow() by compute, to maps of computed_depth_format. `texels`: of all views together.
+/// add_shadow() by compute, to maps of computed_depth_format. `key_capacity`: as given to raster_batches().
 [[nodiscard]] Result<void> add_shadow_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                                 const ComputeRasterInputs& inputs, const ShadowMaps& maps, std::uint64_t texels);
+                                                 const ComputeRasterInputs& inputs, const ShadowMaps& maps, std::uint64_t key_capacity);
 
 }  // namespace heliodon::passes

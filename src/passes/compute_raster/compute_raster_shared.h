@@ -7,7 +7,7 @@ SHADING_BEGIN
 /// A rectangle of pixels that the scene is drawn to.
 struct RasterView {
     mat4 world_to_clip;
-    uint first_key;  // its pixels' keys lie row after row
+    uint first_key;  // its pixels' keys lie row after row; a multiple of raster_key_block
     uint width;
     uint height;
     uint corner_x;  // in the picture or its layer of the shadow maps, pixels
@@ -57,6 +57,7 @@ SHADING_CONST int raster_subpixels = 256;
 SHADING_CONST int raster_small_pixels = 64;
 SHADING_CONST int raster_strip_rows = 16;
 SHADING_CONST uint raster_views_a_thread = 6u;      // a cube's
+SHADING_CONST uint raster_key_block = 256u;         // a workgroup resolves so many keys
 SHADING_CONST uint raster_strip_groups = 16384u;    // they share the strips
 
 SHADING_END

@@ -5,10 +5,7 @@
 layout(set = 0, binding = 15) uniform writeonly image2DArray shadow_depth;
 layout(set = 0, binding = 16) uniform writeonly image2DArray shadow_slope;
 
-void main() {
-    uvec2 key;
-    ivec3 texel;
-    if (!take_key(key, texel)) return;
+void resolve(uvec2 key, ivec3 texel) {
     imageStore(shadow_depth, texel, vec4(uintBitsToFloat(key.y), 0.0f, 0.0f, 0.0f));
     imageStore(shadow_slope, texel, vec4(unpackHalf2x16(key.x), 0.0f, 0.0f));
 }

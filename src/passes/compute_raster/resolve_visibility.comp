@@ -5,10 +5,7 @@
 
 layout(set = 0, binding = 15) uniform writeonly uimage2D visibility;  // instance + 1 (0: background), triangle
 
-void main() {
-    uvec2 key;
-    ivec3 pixel;
-    if (!take_key(key, pixel)) return;
+void resolve(uvec2 key, ivec3 pixel) {
     uvec2 visible = uvec2(0u);
     if (key.y != 0u) {
         const TriangleRange range = range_of(~key.x, push.range_count);
