@@ -59,7 +59,7 @@ Result<void> FrameRenderer::place_raster_camera(const glm::mat4& world_to_clip) 
     const std::uint64_t pixels = std::uint64_t(key_.width) * key_.height;
     return place_raster_views(camera_raster_, camera_raster_view_,
                               {passes::raster_view(world_to_clip, {0, 0}, {key_.width, key_.height}, 0, 0)},
-                              passes::raster_key_capacity(device_, pixels, 1));
+                              passes::raster_key_capacity(device_, pixels));
 }
 
 Result<void> FrameRenderer::place_raster_shadows(std::span<const shading::ShadowViewData> views) {
@@ -73,8 +73,7 @@ Result<void> FrameRenderer::place_raster_shadows(std::span<const shading::Shadow
 }
 
 std::uint64_t FrameRenderer::shadow_key_capacity(const GraphKey& key) const {
-    const std::uint64_t texels = std::uint64_t{key.shadow_layers} * key.shadow_size * key.shadow_size;
-    return passes::raster_key_capacity(device_, texels, key.shadow_views);
+    return passes::raster_key_capacity(device_, std::uint64_t{key.shadow_layers} * key.shadow_size * key.shadow_size);
 }
 
 Result<void> FrameRenderer::add_shadow_maps(graph::Graph& graph, const passes::ShadowMaps& maps) {

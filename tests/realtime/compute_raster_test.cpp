@@ -69,7 +69,7 @@ protected:
         inputs.range_count = static_cast<std::uint32_t>(ranges.size());
         const glm::mat4 world_to_clip = realtime::camera_frame(camera, gpu_scene.bounds(), width, height, glm::vec2(0)).world_to_clip;
         std::vector<shading::RasterView> views{passes::raster_view(world_to_clip, {0, 0}, {width, height}, 0, 0)};
-        inputs.batches = passes::raster_batches(views, passes::raster_key_capacity(*device_, width * height, 1));
+        inputs.batches = passes::raster_batches(views, passes::raster_key_capacity(*device_, width * height));
         const auto filled = [&](const char* name, const auto& values) {
             auto buffer = value_of(gpu::Buffer::create(*device_, {name, values.size() * sizeof(values[0])}));
             value_of(device_->upload(buffer, std::as_bytes(std::span(values))));

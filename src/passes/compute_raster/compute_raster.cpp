@@ -22,13 +22,10 @@ constexpr float largest_coordinate_px = 16384;
 // … and within twice the view, so that depths interpolated there lose little.
 constexpr float widest_guard = 2;
 
-std::uint64_t whole_blocks(std::uint64_t keys) {
-    return (keys + shading::raster_key_block - 1) / shading::raster_key_block * shading::raster_key_block;
-}
+std::uint32_t groups_of(std::uint32_t count, std::uint32_t size) { return static_cast<std::uint32_t>((std::uint64_t{count} + size - 1) / size); }
 
 /// Workgroups spread over rows as linear_groups.glsl counts them.
-glm::uvec3 spread(std::uint64_t threads, std::uint32_t layers = 1) {
-    const auto groups = static_cast<std::uint32_t>((threads + threads_a_group - 1) / threads_a_group);
+glm::uvec3 spread(std::uint32_t groups, std::uint32_t layers = 1) {
     return {std::min(groups, shading::groups_a_row), (groups + shading::groups_a_row - 1) / shading::groups_a_row, layers};
 }
 
@@ -56,17 +53,16 @@ void ComputeRaster::record(PassContext& context, const std::vector<NumberedBindi
     for (std::size_t i = 0; i < inputs.batches.size(); ++i) {
         const RasterBatch& batch = inputs.batches[i];
         const ComputeRasterConstants push{inputs.range_count, inputs.triangle_count, batch.view_first,  batch.view_count,
-                                          batch.key_count,    inputs.strip_capacity, inputs.large_capacity, inputs.random_seed};
+                                          batch.tile_count,   inputs.strip_capacity, inputs.large_capacity, inputs.random_seed};
         if (i > 0) commands.compute_barrier();
         if (inputs.triangle_count > 0) {
-            const std::uint32_t view_groups = (batch.view_count + shading::raster_views_a_thread - 1) / shading::raster_views_a_thread;
-            commands.dispatch(*triangles, push, select_bindings(*triangles, scene, own), spread(inputs.triangle_count, view_groups));
+            const std::uint32_t view_groups = groups_of(batch.view_count, shading::raster_views_a_thread);
+            commands.dispatch(*triangles, push, select_bindings(*triangles, scene, own), spread(groups_of(inputs.triangle_count, threads_a_group), view_groups));
             commands.compute_barrier();
             commands.dispatch(*strip_rows, push, select_bindings(*strip_rows, scene, own), {shading::raster_strip_groups, 1, 1});
             commands.compute_barrier();
         }
-        commands.dispatch(*resolve, push, select_bindings(*resolve, scene, own),
-                          spread(batch.key_count / (shading::raster_key_block / threads_a_group)));
+        commands.dispatch(*resolve, push, select_bindings(*resolve, scene, own), spread(batch.tile_count));
     }
 }
 
@@ -93,13 +89,12 @@ Result<ComputeRaster> begin(graph::Graph& graph, gpu::Pipelines& pipelines, cons
 
 }  // namespace
 
-std::uint64_t raster_key_capacity(const gpu::Device& device, std::uint64_t pixels, std::uint64_t views) {
-    const std::uint64_t most = std::min<std::uint64_t>(key_budget_bytes, device.limits().maxStorageBufferRange) / key_bytes;
-    return std::min(most, whole_blocks(pixels + views * (shading::raster_key_block - 1)));
+std::uint64_t raster_key_capacity(const gpu::Device& device, std::uint64_t pixels) {
+    return std::min<std::uint64_t>({pixels, key_budget_bytes / key_bytes, device.limits().maxStorageBufferRange / key_bytes});
 }
 
 bool can_raster_by_compute(const gpu::Device& device, std::uint64_t pixels_a_view) {
-    return device.info().buffer_int64_atomics && whole_blocks(pixels_a_view) <= raster_key_capacity(device, ~0u, 1);
+    return device.info().buffer_int64_atomics && raster_key_capacity(device, pixels_a_view) == pixels_a_view;
 }
 
 RasterView raster_view(const glm::mat4& world_to_clip, glm::uvec2 corner, glm::uvec2 size, std::uint32_t layer, std::uint32_t number) {
@@ -116,33 +111,38 @@ RasterView raster_view(const glm::mat4& world_to_clip, glm::uvec2 corner, glm::u
 }
 
 std::vector<RasterBatch> raster_batches(std::span<RasterView> views, std::uint64_t key_capacity) {
+    const auto tiles = [](std::uint32_t pixels) { return (pixels + shading::raster_tile_edge - 1) / shading::raster_tile_edge; };
     std::vector<RasterBatch> batches;
     for (std::uint32_t i = 0; i < views.size(); ++i) {
-        const auto keys = static_cast<std::uint32_t>(whole_blocks(views[i].width * views[i].height));
-        if (batches.empty() || batches.back().key_count + std::uint64_t{keys} > key_capacity)
-            batches.push_back({i, 0, 0});
-        views[i].first_key = batches.back().key_count;
-        batches.back().key_count += keys;
-        ++batches.back().view_count;
+        const std::uint32_t keys = views[i].width * views[i].height;
+        if (batches.empty() || batches.back().key_count + std::uint64_t{keys} > key_capacity) batches.push_back({i, 0, 0, 0});
+        RasterBatch& batch = batches.back();
+        views[i].first_key = batch.key_count;
+        views[i].first_tile = batch.tile_count;
+        batch.key_count += keys;
+        batch.tile_count += tiles(views[i].width) * tiles(views[i].height);
+        ++batch.view_count;
     }
     return batches;
 }
 
 Result<Visibility> add_visibility_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                              const ComputeRasterInputs& inputs, VkExtent2D extent) {
-    auto raster = begin(graph, pipelines, scene, inputs, "visibility",
-                        whole_blocks(std::uint64_t{extent.width} * extent.height), false);
+    auto raster = begin(graph, pipelines, scene, inputs, "visibility", std::uint64_t{extent.width} * extent.height, false);
     if (!raster) return tl::unexpected(raster.error());
     Visibility result;
-    result.ids = graph.create_image({.name = "visibility", .format = VK_FORMAT_R32G32_UINT, .extent = {extent.width, extent.height, 1}});
+    const VkExtent3D size{extent.width, extent.height, 1};
+    result.ids = graph.create_image({.name = "visibility", .format = VK_FORMAT_R32G32_UINT, .extent = size});
+    result.depth = graph.create_image({.name = "depth", .format = computed_depth_format, .extent = size});
     graph.add_pass(
         "visibility", graph::PassKind::compute,
         [&](PassBuilder& pass) {
             raster->declare(pass);
             pass.write(result.ids, Usage::storage_write);
+            pass.write(result.depth, Usage::storage_write);
         },
         [self = *raster, result](PassContext& context) {
-            self.record(context, {{15, context.image(result.ids)}});
+            self.record(context, {{15, context.image(result.ids)}, {16, context.image(result.depth)}});
         });
     return result;
 }

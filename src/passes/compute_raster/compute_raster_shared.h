@@ -7,7 +7,8 @@ SHADING_BEGIN
 /// A rectangle of pixels that the scene is drawn to.
 struct RasterView {
     mat4 world_to_clip;
-    uint first_key;  // its pixels' keys lie row after row; a multiple of raster_key_block
+    uint first_key;   // its pixels' keys lie row after row
+    uint first_tile;  // squares of raster_tile_edge² pixels in which keys are resolved, counted row after row
     uint width;
     uint height;
     uint corner_x;  // in the picture or its layer of the shadow maps, pixels
@@ -15,6 +16,9 @@ struct RasterView {
     uint layer;
     uint number;  // of the view, for random numbers
     float guard;  // triangles that reach out of the view by more than this factor are clipped
+    uint padding0;
+    uint padding1;
+    uint padding2;
 };
 
 /// What is drawn together: views from `view_first` on.
@@ -23,7 +27,7 @@ struct ComputeRasterConstants {
     uint triangle_count;
     uint view_first;
     uint view_count;
-    uint key_count;
+    uint tile_count;
     uint strip_capacity;
     uint large_capacity;
     uint random_seed;
@@ -54,10 +58,10 @@ struct RasterStrips {
 // Vertices snap to 1/256 pixel, as graphics hardware does (VkPhysicalDeviceLimits::subPixelPrecisionBits).
 SHADING_CONST int raster_subpixels = 256;
 // What a triangle's box of pixels may hold to be drawn by one invocation; others are drawn in strips, a workgroup each.
-SHADING_CONST int raster_small_pixels = 64;
+SHADING_CONST int raster_small_pixels = 256;
 SHADING_CONST int raster_strip_rows = 16;
 SHADING_CONST uint raster_views_a_thread = 6u;      // a cube's
-SHADING_CONST uint raster_key_block = 256u;         // a workgroup resolves so many keys
+SHADING_CONST uint raster_tile_edge = 16u;          // a workgroup resolves so many columns and rows
 SHADING_CONST uint raster_strip_groups = 16384u;    // they share the strips
 
 SHADING_END

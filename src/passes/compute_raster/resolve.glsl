@@ -5,8 +5,8 @@
 #include "passes/compute_raster/compute_raster_shared.h"
 #include "passes/voxelize/linear_groups.glsl"
 
-const uint lanes = 64u;
-layout(local_size_x = lanes) in;
+// Neighbouring lanes take neighbouring columns of two rows: images keep such squares together.
+layout(local_size_x = raster_tile_edge, local_size_y = 4) in;
 layout(set = 0, binding = 8, std430) readonly buffer Views { RasterView views[]; };
 layout(set = 0, binding = 13, std430) buffer Keys { uvec2 keys[]; };  // low and high half
 layout(set = 0, binding = 14, std430) buffer Strips { RasterStrips strips; };
@@ -15,32 +15,33 @@ layout(push_constant) uniform Push { ComputeRasterConstants push; };
 /// `pixel`: in the picture, and the layer.
 void resolve(uvec2 key, ivec3 pixel);
 
-/// The view that a block of keys is of.
-RasterView view_of(uint first_key) {
+RasterView view_of(uint tile) {
     uint low = push.view_first;
     uint high = push.view_first + push.view_count;
     while (high - low > 1u) {
         const uint middle = (low + high) / 2u;
-        if (views[middle].first_key <= first_key) low = middle;
+        if (views[middle].first_tile <= tile) low = middle;
         else high = middle;
     }
     return views[low];
 }
 
 void main() {
-    const uint first_key = linear_group() * raster_key_block;
-    if (first_key >= push.key_count) return;
-    if (first_key == 0u && gl_LocalInvocationID.x == 0u) strips = RasterStrips(0u, 0u);
-    const RasterView view = view_of(first_key);
-    const uint within = first_key - view.first_key + gl_LocalInvocationID.x;
-    uint x = within % view.width;
-    uint y = within / view.width;
-    for (uint i = 0u; i < raster_key_block && y < view.height; i += lanes) {
-        const uint place = first_key + gl_LocalInvocationID.x + i;
+    uint tile = linear_group();
+    if (tile >= push.tile_count) return;
+    if (tile == 0u && gl_LocalInvocationIndex == 0u) strips = RasterStrips(0u, 0u);
+    const RasterView view = view_of(tile);
+    tile -= view.first_tile;
+    const uint tiles_a_row = (view.width + raster_tile_edge - 1u) / raster_tile_edge;
+    const uint x = tile % tiles_a_row * raster_tile_edge + gl_LocalInvocationID.x;
+    const uint first_row = tile / tiles_a_row * raster_tile_edge;
+    if (x >= view.width) return;
+    for (uint row = gl_LocalInvocationID.y; row < raster_tile_edge && first_row + row < view.height; row += gl_WorkGroupSize.y) {
+        const uint y = first_row + row;
+        const uint place = view.first_key + y * view.width + x;
         const uvec2 key = keys[place];
         if (key.y != 0u) keys[place] = uvec2(0u);
         resolve(key, ivec3(view.corner_x + x, view.corner_y + y, view.layer));
-        for (x += lanes; x >= view.width; x -= view.width) ++y;
     }
 }
 

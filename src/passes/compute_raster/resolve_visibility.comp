@@ -4,6 +4,7 @@
 #include "passes/voxelize/voxel_ranges.glsl"
 
 layout(set = 0, binding = 15) uniform writeonly uimage2D visibility;  // instance + 1 (0: background), triangle
+layout(set = 0, binding = 16) uniform writeonly image2D depth;
 
 void resolve(uvec2 key, ivec3 pixel) {
     uvec2 visible = uvec2(0u);
@@ -12,4 +13,5 @@ void resolve(uvec2 key, ivec3 pixel) {
         visible = uvec2(range.instance + 1u, ~key.x - range.first_triangle);
     }
     imageStore(visibility, pixel.xy, uvec4(visible, 0u, 0u));
+    imageStore(depth, pixel.xy, vec4(uintBitsToFloat(key.y), 0.0f, 0.0f, 0.0f));
 }
