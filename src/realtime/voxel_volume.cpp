@@ -13,9 +13,9 @@
 namespace heliodon::realtime {
 namespace {
 
-// Empty voxels of the widest cascade round the scene, so that walls at its bounds lie in the middle of a voxel,
-// not between two.
-constexpr float margin_voxels = 0.5f;
+// Empty voxels of the widest cascade round the scene, so that walls at its bounds do not lie between two voxels: in the
+// middle of one, or, where cascades have voxels of half that size and half again, two thirds or one third into theirs.
+float margin_voxels(int cascades) { return cascades > 1 ? 5.0f / 3 : 1.5f; }
 // Whole numbers and fractions that single precision tells apart.
 constexpr int exact_bits = 24;
 // Inner cascades move by so many voxels at a time: the voxels of the next one must hold them in pairs.
@@ -167,12 +167,13 @@ Result<void> VoxelVolume::place(const GpuScene& scene, glm::vec3 eye) {
     const float longest = std::max({extent.x, extent.y, extent.z, 1e-6f});
     const auto size = static_cast<float>(settings_.voxels);
     const int last = settings_.cascades - 1;
-    const float widest_voxel = longest / (size - 2 * margin_voxels);
+    const float margin = margin_voxels(settings_.cascades);
+    const float widest_voxel = longest / (size - 2 * margin);
     shading::VolumeData wanted = data_;
     wanted.size = static_cast<std::uint32_t>(settings_.voxels);
     wanted.cascades = static_cast<std::uint32_t>(settings_.cascades);
     wanted.voxel_m = std::ldexp(widest_voxel, -last);
-    wanted.lattice = bounds.min - margin_voxels * widest_voxel;
+    wanted.lattice = bounds.min - margin * widest_voxel;
     for (int c = 0; c <= last; ++c) {
         const float voxel_m = std::ldexp(wanted.voxel_m, c);
         const glm::vec3 corner = (eye - wanted.lattice) / voxel_m - 0.5f * size;

@@ -35,12 +35,13 @@ protected:
     }
     /// The next frame; milliseconds of its passes into `times`.
     static std::vector<float> frame(Renderer& renderer, const Scene& scene, const Camera& camera, int size = 32,
-                                    realtime::PassTimes* times = nullptr) {
+                                    realtime::PassTimes* times = nullptr, std::uint32_t aov = shading::frame_aov_none) {
         if (auto updated = renderer->update(scene); !updated) throw std::runtime_error(updated.error().text());
         expect(renderer->resize(size, size, false));
         realtime::FrameSample sample;
         sample.count = 0;
         sample.cone_traced = true;
+        sample.aov = aov;
         expect(renderer->render(camera, sample, times));
         auto sum = renderer->read_sum();
         if (!sum) throw std::runtime_error(sum.error().text());
