@@ -11,7 +11,7 @@ namespace {
 
 // A voxel's face gathers with one set of cones. Once light has converged, further sets fill the cells between them,
 // so many for a still picture.
-constexpr int still_gather_sets = 8;
+constexpr int still_gather_sets = 32;
 // Light has converged when a bounce changes the volume by less than half precision can tell.
 constexpr double converged_change = 1.0 / 2048;
 // Ends what cannot converge: surfaces that reflect everything, in a closed room.

@@ -71,6 +71,9 @@ vec3 face_coordinates(vec3 position, float edge, float level) {
     return at / (size * vec3(2.0f, float(volume.cascades), 3.0f));
 }
 
+// Cones that graze a layer at less than a quarter of its slope pass it too seldom to matter.
+const float most_looks = 4.0f;
+
 struct ConeResult {
     vec3 radiance;  // cd/m² × cover
     float cover;
@@ -92,13 +95,19 @@ ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float r
     const float coarsest = 0.5f * wide;  // edge of the voxels of the level before the last
     // A ray that goes forward sees what looks backward.
     const vec3 side = mix(vec3(0.5f), vec3(0.0f), backward);
-    // A voxel's edge is the cone's radius, to the nearest level: it doubles at √2 times it.
-    const float radius = tan_half_angle * inversesqrt(2.0f);
+    // A texel is the mean over its edge and interpolation spreads it by another: it reaches 3/2 edges to each side. Where
+    // that is the cone's radius the level fits; an axis goes to the next one at √2 times it, to the nearest level.
+    const float radius = tan_half_angle * (inversesqrt(2.0f) / 1.5f);
 
     vec3 level = vec3(level_holding(origin + direction * begin));
     vec3 edge = exp2(level);
     vec3 layer = floor((start + abs(direction) * begin) / edge);
-    vec3 next = max(((layer + 0.5f) * edge - start) * inverse, vec3(begin));
+    // A cone that grazes a layer goes far along it, and looks at it once a voxel, so that what stands at the layer's near
+    // side is seen before the cone has passed it by.
+    const vec3 size = abs(direction);
+    const vec3 looks = clamp(ceil(max(size.yzx, size.zxy) * inverse), vec3(1.0f), vec3(most_looks));
+    vec3 look = vec3(0.0f);
+    vec3 next = max(((layer + 0.5f / looks) * edge - start) * inverse, vec3(begin));
     while (true) {
         const float t = min(next.x, min(next.y, next.z));
         if (!(t <= end)) break;
@@ -147,22 +156,32 @@ ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float r
             result.cover += gained;
             if (result.cover >= 0.999f) break;
         }
-        float axis_layer = (x ? layer.x : y ? layer.y : layer.z) + 1.0f;
+        const float axis_looks = x ? looks.x : y ? looks.y : looks.z;
+        float axis_look = (x ? look.x : y ? look.y : look.z) + 1.0f;
+        float axis_layer = here;
+        const bool onward = face.a > 0.0f || axis_look >= axis_looks;
+        if (onward) {
+            axis_look = 0.0f;
+            axis_layer += 1.0f;
+        }
         // An axis goes to the coarser level where its next layer begins one there, so that each layer counts once.
         const bool coarser = t * radius >= axis_edge && axis_edge < coarsest;
-        if (coarser && fract(0.5f * axis_layer) == 0.0f) {
+        if (onward && coarser && fract(0.5f * axis_layer) == 0.0f) {
             axis_layer *= 0.5f;
             axis_edge *= 2.0f;
             axis_level += 1.0f;
         }
-        const float middle = (axis_layer + 0.5f) * axis_edge;
+        const float middle = (axis_layer + (axis_look + 0.5f) / axis_looks) * axis_edge;
         if (x) {
+            look.x = axis_look;
             layer.x = axis_layer, edge.x = axis_edge, level.x = axis_level;
             next.x = (middle - start.x) * inverse.x;
         } else if (y) {
+            look.y = axis_look;
             layer.y = axis_layer, edge.y = axis_edge, level.y = axis_level;
             next.y = (middle - start.y) * inverse.y;
         } else {
+            look.z = axis_look;
             layer.z = axis_layer, edge.z = axis_edge, level.z = axis_level;
             next.z = (middle - start.z) * inverse.z;
         }
