@@ -181,33 +181,46 @@ TEST_F(ComputeRaster, TheNearerSurfaceHidesTheOther) {
     EXPECT_LE(differences(seen), int(width * height / 1000));
 }
 
-TEST_F(ComputeRaster, MaskedSurfacesHaveTheHolesThatTheHardwareFinds) {
-    Scene scene;
-    Texture texture;  // a chessboard of holes
-    texture.width = texture.height = 8;
+/// A chessboard of n² holes and none; `levels`: with the coarser ones, which are half there.
+Texture chessboard(int n, bool levels) {
+    Texture texture;
+    texture.width = texture.height = n;
     texture.magnify = texture.minify = Filter::nearest;
-    texture.mipmapped = false;
+    texture.mipmapped = levels;
     texture.opaque = false;
-    texture.levels.emplace_back();
-    for (int i = 0; i < 64; ++i)
-        for (const int value : {255, 255, 255, (i + i / 8) % 2 ? 255 : 0}) texture.levels[0].push_back(static_cast<std::uint8_t>(value));
-    Material leaf = lambert(glm::vec3(1));
-    leaf.alpha_mode = AlphaMode::mask;
-    leaf.base_color_texture.texture = scene.add_texture(std::move(texture));
-    const MaterialId masked = scene.add_material(leaf);
-    Mesh sheet;
-    sheet.positions = {{-1, 0, 9}, {1, 0, 9}, {1, 0, -9}, {-1, 0, -9}};
-    sheet.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    sheet.indices = {0, 1, 2, 0, 2, 3};
-    add_mesh(scene, sheet, masked);
-    add_floor(scene, 3, scene.add_material(lambert(glm::vec3(1))), -0.5f);
-    const Seen seen = see(scene, camera_at({0.3f, 1, 4}, {0, 0, 0}));
-    EXPECT_LE(differences(seen), int(width * height / 1000));
-    const auto of = [&](std::uint32_t instance) {
-        return std::count_if(seen.compute.begin(), seen.compute.end(), [&](glm::uvec2 id) { return id.x == instance + 1; });
-    };
-    EXPECT_GT(of(0), 1000);
-    EXPECT_GT(of(1), 1000);
+    for (int size = n; size >= 1; size /= 2) {
+        auto& level = texture.levels.emplace_back();
+        for (int i = 0; i < size * size; ++i) {
+            const int hole = size == n ? ((i + i / n) % 2 ? 255 : 0) : 128;
+            for (const int value : {255, 255, 255, hole}) level.push_back(static_cast<std::uint8_t>(value));
+        }
+        if (!levels) break;
+    }
+    return texture;
+}
+
+TEST_F(ComputeRaster, MaskedSurfacesHaveTheHolesThatTheHardwareFinds) {
+    for (const bool levels : {false, true}) {
+        Scene scene;
+        Material leaf = lambert(glm::vec3(1));
+        leaf.alpha_mode = AlphaMode::mask;
+        leaf.alpha_cutoff = 0.6f;  // far away, at coarser levels, all is a hole
+        leaf.base_color_texture.texture = scene.add_texture(chessboard(levels ? 64 : 8, levels));
+        const MaterialId masked = scene.add_material(leaf);
+        Mesh sheet;
+        sheet.positions = {{-1, 0, 9}, {1, 0, 9}, {1, 0, -9}, {-1, 0, -9}};
+        sheet.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+        sheet.indices = {0, 1, 2, 0, 2, 3};
+        add_mesh(scene, sheet, masked);
+        add_floor(scene, 3, scene.add_material(lambert(glm::vec3(1))), -0.5f);
+        const Seen seen = see(scene, camera_at({0.3f, 1, 4}, {0, 0, 0}));
+        const auto pixels_of = [](const Ids& ids, std::uint32_t instance) {
+            return std::count_if(ids.begin(), ids.end(), [&](glm::uvec2 id) { return id.x == instance + 1; });
+        };
+        EXPECT_GT(pixels_of(seen.compute, 0), 1000);
+        EXPECT_GT(pixels_of(seen.compute, 1), 1000);
+        EXPECT_LE(differences(seen), int(width * height / 1000));
+    }
 }
 
 TEST(RasterBatches, HoldAsManyViewsAsThereIsRoomForInTheirOrder) {

@@ -87,6 +87,9 @@ TEST_F(GpuSceneUpdate, TenThousandNodesAreDrawnWithOneIndirectCallAPass) {
             scene.add_node(std::move(node));
         }
         add_sun(scene, {0.2f, -1, 0.1f}, glm::vec3(1000));
+        RenderSettings settings;
+        settings.rasterizer = Rasterizer::hardware;  // compute needs no draws
+        scene.set_render_settings(settings);
         auto fresh = RealtimeRenderer::create({.validation = true});
         if (!fresh) return RealtimeStatistics{};
         RealtimeOptions options;
