@@ -34,7 +34,8 @@ Result<void> FrameRenderer::list_raster_triangles() {
         triangles += geometry->mesh.indices.size() / 3;
     }
     if (triangles > 0xffffffffull) return fail("render.rasterizer", "more triangles than compute can number");
-    if (auto done = raster_ranges_.reserve(device_, ranges.size() * sizeof(passes::TriangleRange), 0); !done) return done;
+    if (auto done = raster_ranges_.reserve(device_, ranges.size() * sizeof(passes::TriangleRange), 0); !done)
+        return done;
     if (!ranges.empty())
         if (auto done = device_.upload<passes::TriangleRange>(raster_ranges_.buffer(), ranges); !done) return done;
     for (passes::ComputeRasterInputs* inputs : {&camera_raster_, &shadow_raster_}) {
@@ -66,8 +67,9 @@ Result<void> FrameRenderer::place_raster_shadows(std::span<const shading::Shadow
     if (!key_.computed_shadows) return {};
     std::vector<shading::RasterView> raster_views;
     for (const shading::ShadowViewData& view : views)
-        raster_views.push_back(passes::raster_view(view.world_to_clip, {view.corner_x, view.corner_y}, glm::uvec2(view.size),
-                                                   view.layer, static_cast<std::uint32_t>(raster_views.size())));
+        raster_views.push_back(passes::raster_view(view.world_to_clip, {view.corner_x, view.corner_y},
+                                                   glm::uvec2(view.size), view.layer,
+                                                   static_cast<std::uint32_t>(raster_views.size())));
     shadow_raster_.random_seed = shadow_inputs_.random_seed;
     return place_raster_views(shadow_raster_, shadow_raster_views_, std::move(raster_views), shadow_key_capacity(key_));
 }
@@ -78,16 +80,20 @@ std::uint64_t FrameRenderer::shadow_key_capacity(const GraphKey& key) const {
 
 Result<void> FrameRenderer::add_shadow_maps(graph::Graph& graph, const passes::ShadowMaps& maps) {
     if (wanted_.computed_shadows)
-        return passes::add_shadow_by_compute(graph, pipelines_, inputs_, shadow_raster_, maps, shadow_key_capacity(wanted_));
+        return passes::add_shadow_by_compute(graph, pipelines_, inputs_, shadow_raster_, maps,
+                                             shadow_key_capacity(wanted_));
     auto lists = passes::add_cull(graph, pipelines_, inputs_, {wanted_.shadow_views, wanted_.instance_capacity, true},
                                   shadow_cull_views_, shadow_inputs_.view_count);
     if (!lists) return tl::unexpected(lists.error());
     return passes::add_shadow(graph, pipelines_, inputs_, shadow_inputs_, *lists, maps);
 }
 
-Result<passes::Visibility> FrameRenderer::add_visibility(graph::Graph& graph, VkExtent2D extent, passes::DrawLists& lists) {
-    if (wanted_.computed_visibility) return passes::add_visibility_by_compute(graph, pipelines_, inputs_, camera_raster_, extent);
-    auto culled = passes::add_cull(graph, pipelines_, inputs_, {1, wanted_.instance_capacity, false}, camera_view_, camera_view_count_);
+Result<passes::Visibility> FrameRenderer::add_visibility(graph::Graph& graph, VkExtent2D extent,
+                                                         passes::DrawLists& lists) {
+    if (wanted_.computed_visibility)
+        return passes::add_visibility_by_compute(graph, pipelines_, inputs_, camera_raster_, extent);
+    auto culled = passes::add_cull(graph, pipelines_, inputs_, {1, wanted_.instance_capacity, false}, camera_view_,
+                                   camera_view_count_);
     if (!culled) return tl::unexpected(culled.error());
     lists = *culled;
     return passes::add_visibility(graph, pipelines_, inputs_, camera_view_, lists, extent);

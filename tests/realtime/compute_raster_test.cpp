@@ -3,11 +3,11 @@
 #include <numeric>
 
 #include "engine_parity.h"
+#include "import/import.h"
 #include "passes/cull/cull.h"
 #include "realtime/camera_frame.h"
 #include "scene/procedural.h"
 #include "shared_data.h"
-#include "import/import.h"
 #include "voxel_test.h"
 
 namespace heliodon::tests {
@@ -64,10 +64,12 @@ protected:
         const auto instances = gpu_scene.flat().instances();
         for (std::uint32_t i = 0; i < instances.size(); ++i) {
             ranges.push_back({inputs.triangle_count, i});
-            inputs.triangle_count += static_cast<std::uint32_t>(gpu_scene.flat().geometries()[instances[i].geometry]->mesh.triangle_count());
+            inputs.triangle_count +=
+                static_cast<std::uint32_t>(gpu_scene.flat().geometries()[instances[i].geometry]->mesh.triangle_count());
         }
         inputs.range_count = static_cast<std::uint32_t>(ranges.size());
-        const glm::mat4 world_to_clip = realtime::camera_frame(camera, gpu_scene.bounds(), width, height, glm::vec2(0)).world_to_clip;
+        const glm::mat4 world_to_clip =
+            realtime::camera_frame(camera, gpu_scene.bounds(), width, height, glm::vec2(0)).world_to_clip;
         std::vector<shading::RasterView> views{passes::raster_view(world_to_clip, {0, 0}, {width, height}, 0, 0)};
         inputs.batches = passes::raster_batches(views, passes::raster_key_capacity(*device_, width * height));
         const auto filled = [&](const char* name, const auto& values) {
@@ -84,7 +86,8 @@ protected:
         const VkExtent2D extent{width, height};
         const auto computed = value_of(passes::add_visibility_by_compute(graph, *pipelines_, tables, inputs, extent));
         const std::uint32_t view_count = 1;
-        const auto lists = value_of(passes::add_cull(graph, *pipelines_, tables, {1, tables.instance_count, false}, cull_views, view_count));
+        const auto lists = value_of(
+            passes::add_cull(graph, *pipelines_, tables, {1, tables.instance_count, false}, cull_views, view_count));
         const auto drawn = value_of(passes::add_visibility(graph, *pipelines_, tables, cull_views, lists, extent));
         graph.export_image(computed.ids);
         graph.export_image(drawn.ids);
@@ -99,7 +102,8 @@ protected:
                 value_of(device_->read_back_as<glm::uvec2>(executor.image(drawn.ids)))};
     }
     static int differences(const Seen& seen) {
-        return std::inner_product(seen.compute.begin(), seen.compute.end(), seen.hardware.begin(), 0, std::plus<>(), std::not_equal_to<>());
+        return std::inner_product(seen.compute.begin(), seen.compute.end(), seen.hardware.begin(), 0, std::plus<>(),
+                                  std::not_equal_to<>());
     }
     static int empty_pixels(const Ids& ids) {
         return static_cast<int>(std::count_if(ids.begin(), ids.end(), [](glm::uvec2 id) { return id.x == 0; }));
@@ -134,8 +138,9 @@ Scene sphere_knot_and_walls() {
 
 TEST_F(ComputeRaster, EveryPixelSeesTheTriangleThatTheHardwareSees) {
     const Scene scene = sphere_knot_and_walls();
-    for (const Camera& camera : {camera_at({0, 1.3f, 4}, {0, 1, 0}), camera_at({2.99f, 0.02f, 2}, {-1, 0.5f, 0}, 1.5f),
-                                 camera_at({0.3f, 0.001f, 3}, {0, 0.4f, 0}, 2.2f), camera_at({-1.2f, 1, 0}, {1, 1, 0.2f})}) {
+    for (const Camera& camera :
+         {camera_at({0, 1.3f, 4}, {0, 1, 0}), camera_at({2.99f, 0.02f, 2}, {-1, 0.5f, 0}, 1.5f),
+          camera_at({0.3f, 0.001f, 3}, {0, 0.4f, 0}, 2.2f), camera_at({-1.2f, 1, 0}, {1, 1, 0.2f})}) {
         const Seen seen = see(scene, camera);
         EXPECT_LE(differences(seen), int(width * height / 1000));
         RecordProperty("differences", differences(seen));
@@ -165,7 +170,8 @@ TEST_F(ComputeRaster, ARoomThatTheCameraStandsInHasNoGapAtItsEdges) {
     Scene scene;
     const MaterialId white = scene.add_material(lambert(glm::vec3(1)));
     add_shape_node(scene, Box{{-3, -1, -20}, {2, 1.5f, 30}}, white);
-    for (const glm::vec3 target : {glm::vec3(2, 1.5f, -20), glm::vec3(-3, -1, 2.1f), glm::vec3(0, -1, 1.99f), glm::vec3(1.999f, 1.49f, 2.1f)}) {
+    for (const glm::vec3 target :
+         {glm::vec3(2, 1.5f, -20), glm::vec3(-3, -1, 2.1f), glm::vec3(0, -1, 1.99f), glm::vec3(1.999f, 1.49f, 2.1f)}) {
         const Seen seen = see(scene, camera_at({1.99f, 1.45f, 2}, target, 1.9f));
         EXPECT_EQ(empty_pixels(seen.compute), 0);
         EXPECT_LE(differences(seen), int(width * height / 1000));
@@ -225,10 +231,12 @@ TEST_F(ComputeRaster, MaskedSurfacesHaveTheHolesThatTheHardwareFinds) {
 
 TEST(RasterBatches, HoldAsManyViewsAsThereIsRoomForInTheirOrder) {
     std::vector<shading::RasterView> views;
-    for (const std::uint32_t size : {32, 16, 24, 40, 40, 8}) views.push_back(passes::raster_view(glm::mat4(1), {0, 0}, glm::uvec2(size), 0, 0));
+    for (const std::uint32_t size : {32, 16, 24, 40, 40, 8})
+        views.push_back(passes::raster_view(glm::mat4(1), {0, 0}, glm::uvec2(size), 0, 0));
     const auto batches = passes::raster_batches(views, 2000);
     ASSERT_EQ(batches.size(), 3u);
-    const std::uint32_t first[] = {0, 3, 4}, count[] = {3, 1, 2}, keys[] = {1024 + 256 + 576, 1600, 1600 + 64}, tiles[] = {4 + 1 + 4, 9, 9 + 1};
+    const std::uint32_t first[] = {0, 3, 4}, count[] = {3, 1, 2}, keys[] = {1024 + 256 + 576, 1600, 1600 + 64},
+                        tiles[] = {4 + 1 + 4, 9, 9 + 1};
     for (int i = 0; i < 3; ++i) {
         EXPECT_EQ(batches[i].view_first, first[i]);
         EXPECT_EQ(batches[i].view_count, count[i]);
@@ -310,7 +318,8 @@ TEST_F(RasterizerPictures, ManySmallShadowMapsOfDifferentSizesAreTheHardwares) {
     add_floor(scene, 3, white);
     add_shape_node(scene, Box{{-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}}, white);
     for (int i = 0; i < 40; ++i)
-        add_point_light(scene, {2 * std::cos(0.7f * i), 0.5f + 0.05f * i, 2 * std::sin(0.7f * i)}, glm::vec3(0.3f + 0.1f * i));
+        add_point_light(scene, {2 * std::cos(0.7f * i), 0.5f + 0.05f * i, 2 * std::sin(0.7f * i)},
+                        glm::vec3(0.3f + 0.1f * i));
     Camera camera = camera_at({0, 3, 3}, {0, 0, 0});
     camera.ev100_override = 2.0f;
     EXPECT_LE(flip_between_rasterizers(scene, camera, 128, 1, 512), 0.005);

@@ -38,7 +38,8 @@ ClipPolygon clip_triangle(RasterTriangle triangle, float guard) {
     ClipPolygon polygon;
     for (int i = 0; i < 3; ++i) polygon.corners[i] = triangle.clip[i];
     polygon.count = 3;
-    uint planes = outside_clip(triangle.clip[0], guard) | outside_clip(triangle.clip[1], guard) | outside_clip(triangle.clip[2], guard);
+    uint planes = 0u;
+    for (int i = 0; i < 3; ++i) planes |= outside_clip(triangle.clip[i], guard);
     while (planes != 0u && polygon.count > 0) {
         polygon = clip_by_plane(polygon, findLSB(planes), guard);
         planes &= planes - 1u;

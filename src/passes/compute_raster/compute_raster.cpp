@@ -22,11 +22,14 @@ constexpr float largest_coordinate_px = 16384;
 // … and within twice the view, so that depths interpolated there lose little.
 constexpr float widest_guard = 2;
 
-std::uint32_t groups_of(std::uint32_t count, std::uint32_t size) { return static_cast<std::uint32_t>((std::uint64_t{count} + size - 1) / size); }
+std::uint32_t groups_of(std::uint32_t count, std::uint32_t size) {
+    return static_cast<std::uint32_t>((std::uint64_t{count} + size - 1) / size);
+}
 
 /// Workgroups spread over rows as linear_groups.glsl counts them.
 glm::uvec3 spread(std::uint32_t groups, std::uint32_t layers = 1) {
-    return {std::min(groups, shading::groups_a_row), (groups + shading::groups_a_row - 1) / shading::groups_a_row, layers};
+    return {std::min(groups, shading::groups_a_row), (groups + shading::groups_a_row - 1) / shading::groups_a_row,
+            layers};
 }
 
 /// What both uses share.
@@ -47,27 +50,34 @@ struct ComputeRaster {
 
 void ComputeRaster::record(PassContext& context, const std::vector<NumberedBinding>& outputs) const {
     gpu::Commands& commands = context.commands;
-    std::vector<NumberedBinding> own{{8, *inputs.views}, {12, *inputs.triangle_ranges}, {13, context.buffer(keys)},
-                                     {14, context.buffer(strips)}, {17, context.buffer(large_triangles)}};
+    std::vector<NumberedBinding> own{{8, *inputs.views},
+                                     {12, *inputs.triangle_ranges},
+                                     {13, context.buffer(keys)},
+                                     {14, context.buffer(strips)},
+                                     {17, context.buffer(large_triangles)}};
     own.insert(own.end(), outputs.begin(), outputs.end());
     for (std::size_t i = 0; i < inputs.batches.size(); ++i) {
         const RasterBatch& batch = inputs.batches[i];
-        const ComputeRasterConstants push{inputs.range_count, inputs.triangle_count, batch.view_first,  batch.view_count,
-                                          batch.tile_count,   inputs.strip_capacity, inputs.large_capacity, inputs.random_seed};
+        const ComputeRasterConstants push{inputs.range_count,    inputs.triangle_count, batch.view_first,
+                                          batch.view_count,      batch.tile_count,      inputs.strip_capacity,
+                                          inputs.large_capacity, inputs.random_seed};
         if (i > 0) commands.compute_barrier();
         if (inputs.triangle_count > 0) {
             const std::uint32_t view_groups = groups_of(batch.view_count, shading::raster_views_a_thread);
-            commands.dispatch(*triangles, push, select_bindings(*triangles, scene, own), spread(groups_of(inputs.triangle_count, threads_a_group), view_groups));
+            commands.dispatch(*triangles, push, select_bindings(*triangles, scene, own),
+                              spread(groups_of(inputs.triangle_count, threads_a_group), view_groups));
             commands.compute_barrier();
-            commands.dispatch(*strip_rows, push, select_bindings(*strip_rows, scene, own), {shading::raster_strip_groups, 1, 1});
+            commands.dispatch(*strip_rows, push, select_bindings(*strip_rows, scene, own),
+                              {shading::raster_strip_groups, 1, 1});
             commands.compute_barrier();
         }
         commands.dispatch(*resolve, push, select_bindings(*resolve, scene, own), spread(batch.tile_count));
     }
 }
 
-Result<ComputeRaster> begin(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const ComputeRasterInputs& inputs,
-                            const std::string& name, std::uint64_t key_count, bool keeps_slope) {
+Result<ComputeRaster> begin(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                            const ComputeRasterInputs& inputs, const std::string& name, std::uint64_t key_count,
+                            bool keeps_slope) {
     ComputeRaster self{scene, inputs, {}, {}, {}};
     const gpu::Specialization specialization{{0, keeps_slope ? 1u : 0u}, {1, inputs.tests_opacity ? 1u : 0u}};
     auto triangles = pipelines.compute("passes/compute_raster/triangles.comp", specialization);
@@ -82,22 +92,26 @@ Result<ComputeRaster> begin(graph::Graph& graph, gpu::Pipelines& pipelines, cons
     self.resolve = *resolve;
     // Zero at first, and left so by each frame.
     self.keys = graph.create_persistent_buffer({name + " keys", key_count * key_bytes});
-    self.strips = graph.create_persistent_buffer({name + " strips", sizeof(shading::RasterStrips) + inputs.strip_capacity * sizeof(glm::uvec2)});
-    self.large_triangles = graph.create_buffer({name + " large triangles", inputs.large_capacity * sizeof(shading::WindowTriangle)});
+    self.strips = graph.create_persistent_buffer(
+        {name + " strips", sizeof(shading::RasterStrips) + inputs.strip_capacity * sizeof(glm::uvec2)});
+    self.large_triangles =
+        graph.create_buffer({name + " large triangles", inputs.large_capacity * sizeof(shading::WindowTriangle)});
     return self;
 }
 
 }  // namespace
 
 std::uint64_t raster_key_capacity(const gpu::Device& device, std::uint64_t pixels) {
-    return std::min<std::uint64_t>({pixels, key_budget_bytes / key_bytes, device.limits().maxStorageBufferRange / key_bytes});
+    return std::min<std::uint64_t>(
+        {pixels, key_budget_bytes / key_bytes, device.limits().maxStorageBufferRange / key_bytes});
 }
 
 bool can_raster_by_compute(const gpu::Device& device, std::uint64_t pixels_a_view) {
     return device.info().buffer_int64_atomics && raster_key_capacity(device, pixels_a_view) == pixels_a_view;
 }
 
-RasterView raster_view(const glm::mat4& world_to_clip, glm::uvec2 corner, glm::uvec2 size, std::uint32_t layer, std::uint32_t number) {
+RasterView raster_view(const glm::mat4& world_to_clip, glm::uvec2 corner, glm::uvec2 size, std::uint32_t layer,
+                       std::uint32_t number) {
     RasterView view{};
     view.world_to_clip = world_to_clip;
     view.width = size.x;
@@ -106,16 +120,20 @@ RasterView raster_view(const glm::mat4& world_to_clip, glm::uvec2 corner, glm::u
     view.corner_y = corner.y;
     view.layer = layer;
     view.number = number;
-    view.guard = std::clamp(2 * largest_coordinate_px / static_cast<float>(std::max(size.x, size.y)), 1.0f, widest_guard);
+    view.guard =
+        std::clamp(2 * largest_coordinate_px / static_cast<float>(std::max(size.x, size.y)), 1.0f, widest_guard);
     return view;
 }
 
 std::vector<RasterBatch> raster_batches(std::span<RasterView> views, std::uint64_t key_capacity) {
-    const auto tiles = [](std::uint32_t pixels) { return (pixels + shading::raster_tile_edge - 1) / shading::raster_tile_edge; };
+    const auto tiles = [](std::uint32_t pixels) {
+        return (pixels + shading::raster_tile_edge - 1) / shading::raster_tile_edge;
+    };
     std::vector<RasterBatch> batches;
     for (std::uint32_t i = 0; i < views.size(); ++i) {
         const std::uint32_t keys = views[i].width * views[i].height;
-        if (batches.empty() || batches.back().key_count + std::uint64_t{keys} > key_capacity) batches.push_back({i, 0, 0, 0});
+        if (batches.empty() || batches.back().key_count + std::uint64_t{keys} > key_capacity)
+            batches.push_back({i, 0, 0, 0});
         RasterBatch& batch = batches.back();
         views[i].first_key = batch.key_count;
         views[i].first_tile = batch.tile_count;
@@ -128,7 +146,8 @@ std::vector<RasterBatch> raster_batches(std::span<RasterView> views, std::uint64
 
 Result<Visibility> add_visibility_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                              const ComputeRasterInputs& inputs, VkExtent2D extent) {
-    auto raster = begin(graph, pipelines, scene, inputs, "visibility", std::uint64_t{extent.width} * extent.height, false);
+    auto raster =
+        begin(graph, pipelines, scene, inputs, "visibility", std::uint64_t{extent.width} * extent.height, false);
     if (!raster) return tl::unexpected(raster.error());
     Visibility result;
     const VkExtent3D size{extent.width, extent.height, 1};
@@ -148,7 +167,8 @@ Result<Visibility> add_visibility_by_compute(graph::Graph& graph, gpu::Pipelines
 }
 
 Result<void> add_shadow_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                   const ComputeRasterInputs& inputs, const ShadowMaps& maps, std::uint64_t key_capacity) {
+                                   const ComputeRasterInputs& inputs, const ShadowMaps& maps,
+                                   std::uint64_t key_capacity) {
     auto raster = begin(graph, pipelines, scene, inputs, "shadow", key_capacity, true);
     if (!raster) return tl::unexpected(raster.error());
     graph.add_pass(

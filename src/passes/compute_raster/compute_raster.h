@@ -40,11 +40,13 @@ inline constexpr VkFormat computed_depth_format = VK_FORMAT_R32_SFLOAT;
 
 /// add_visibility() by compute (a pixel's nearest triangle by a 64-bit atomic maximum of depth and triangle). Depth
 /// is no attachment but of computed_depth_format, and blended surfaces are not left out: the scene must have none.
-[[nodiscard]] Result<Visibility> add_visibility_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                                           const ComputeRasterInputs& inputs, VkExtent2D extent);
+[[nodiscard]] Result<Visibility> add_visibility_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines,
+                                                           const SceneInputs& scene, const ComputeRasterInputs& inputs,
+                                                           VkExtent2D extent);
 
 /// add_shadow() by compute, to maps of computed_depth_format. `key_capacity`: as given to raster_batches().
-[[nodiscard]] Result<void> add_shadow_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                                 const ComputeRasterInputs& inputs, const ShadowMaps& maps, std::uint64_t key_capacity);
+[[nodiscard]] Result<void> add_shadow_by_compute(graph::Graph& graph, gpu::Pipelines& pipelines,
+                                                 const SceneInputs& scene, const ComputeRasterInputs& inputs,
+                                                 const ShadowMaps& maps, std::uint64_t key_capacity);
 
 }  // namespace heliodon::passes

@@ -43,8 +43,10 @@ RasterTriangle load_triangle(uint number) {
     const uint first = geometry.first_index + 3u * (number - range.first_triangle);
     triangle.index = uvec3(index_table[first], index_table[first + 1u], index_table[first + 2u]);
     for (int i = 0; i < 3; ++i)
-        triangle.world[i] = transformed(instance.object_to_world, vec4(fetch_vec3(geometry.position_offset, triangle.index[i]), 1.0f));
-    triangle.tested = tests_opacity && (material_table[instance.material].flags & (material_flag_alpha_mask | material_flag_alpha_blend)) != 0u;
+        triangle.world[i] = transformed(instance.object_to_world,
+                                        vec4(fetch_vec3(geometry.position_offset, triangle.index[i]), 1.0f));
+    const uint tested_flags = material_flag_alpha_mask | material_flag_alpha_blend;
+    triangle.tested = tests_opacity && (material_table[instance.material].flags & tested_flags) != 0u;
     return triangle;
 }
 
@@ -154,7 +156,8 @@ bool is_there(RasterTriangle triangle, RasterView view, ivec2 pixel) {
     const GeometryData geometry = geometry_table[instance.geometry];
     const MaterialData material = material_table[instance.material];
     const uint set_index = material.base_color_texture.texcoord;
-    const mat3x2 texcoords = mat3x2(fetch_texcoord(geometry, set_index, triangle.index.x), fetch_texcoord(geometry, set_index, triangle.index.y),
+    const mat3x2 texcoords = mat3x2(fetch_texcoord(geometry, set_index, triangle.index.x),
+                                    fetch_texcoord(geometry, set_index, triangle.index.y),
                                     fetch_texcoord(geometry, set_index, triangle.index.z));
     const vec2 center = vec2(pixel) + 0.5f;
     const vec3 here = barycentric_at(triangle, view, center);
@@ -167,7 +170,8 @@ bool is_there(RasterTriangle triangle, RasterView view, ivec2 pixel) {
     const vec2 texcoord_dy = texcoords * barycentric_at(triangle, view, center + vec2(0.0f, 1.0f)) - texcoord;
     const float opacity = surface_opacity_within(material, texcoord, texcoord_dx, texcoord_dy, vertex_alpha);
     if ((material.flags & material_flag_alpha_blend) == 0u) return opacity >= material.alpha_cutoff;
-    return unit_interval(alpha_seed(uvec2(pixel) + uvec2(view.corner_x, view.corner_y), triangle.instance, push.random_seed + view.number)) < opacity;
+    const uvec2 texel = uvec2(pixel) + uvec2(view.corner_x, view.corner_y);
+    return unit_interval(alpha_seed(texel, triangle.instance, push.random_seed + view.number)) < opacity;
 }
 
 /// A covered pixel. `triangle` is looked at where opacity counts.
@@ -214,7 +218,8 @@ const uint place_clipped = 3u;  // a workgroup does, after clipping
 uint place_in(RasterView view, inout RasterTriangle triangle, inout WindowTriangle window) {
     window.number = triangle.number;
     project(triangle, view);
-    if ((outside_view(triangle.clip[0]) & outside_view(triangle.clip[1]) & outside_view(triangle.clip[2])) != 0u) return place_nowhere;
+    if ((outside_view(triangle.clip[0]) & outside_view(triangle.clip[1]) & outside_view(triangle.clip[2])) != 0u)
+        return place_nowhere;
     if ((outside_clip(triangle.clip[0], view.guard) | outside_clip(triangle.clip[1], view.guard) |
          outside_clip(triangle.clip[2], view.guard)) != 0u)
         return place_clipped;

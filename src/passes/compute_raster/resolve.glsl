@@ -36,8 +36,8 @@ void main() {
     const uint x = tile % tiles_a_row * raster_tile_edge + gl_LocalInvocationID.x;
     const uint first_row = tile / tiles_a_row * raster_tile_edge;
     if (x >= view.width) return;
-    for (uint row = gl_LocalInvocationID.y; row < raster_tile_edge && first_row + row < view.height; row += gl_WorkGroupSize.y) {
-        const uint y = first_row + row;
+    const uint end = min(first_row + raster_tile_edge, view.height);
+    for (uint y = first_row + gl_LocalInvocationID.y; y < end; y += gl_WorkGroupSize.y) {
         const uint place = view.first_key + y * view.width + x;
         const uvec2 key = keys[place];
         if (key.y != 0u) keys[place] = uvec2(0u);

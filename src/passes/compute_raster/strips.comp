@@ -74,7 +74,9 @@ void draw_all() {
         polygon.count = 3;
         if (place == place_clipped) polygon = clip_triangle(triangle, view.guard);
         for (int k = 2; k < polygon.count; ++k) {
-            if (place == place_clipped && !to_window(polygon.corners[0], polygon.corners[k - 1], polygon.corners[k], view, window)) continue;
+            if (place == place_clipped &&
+                !to_window(polygon.corners[0], polygon.corners[k - 1], polygon.corners[k], view, window))
+                continue;
             draw_rows(triangle, window, view, ivec2(window.low.y, window.high.y));
         }
     }

@@ -35,7 +35,8 @@ void main() {
         } else if (place == place_clipped) {
             const ClipPolygon polygon = clip_triangle(triangle, view.guard);
             for (int k = 2; k < polygon.count; ++k)
-                if (to_window(polygon.corners[0], polygon.corners[k - 1], polygon.corners[k], view, window)) list_strips(window);
+                if (to_window(polygon.corners[0], polygon.corners[k - 1], polygon.corners[k], view, window))
+                    list_strips(window);
         }
     }
 }
