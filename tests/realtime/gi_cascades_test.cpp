@@ -24,6 +24,24 @@ protected:
         for (float& value : *sum) value /= static_cast<float>(samples);
         return std::move(*sum);
     }
+    /// Mean relative error of luminance.
+    double error_of(Scene& scene, const Camera& camera, int size, const Picture& truth, int voxels, int cascades) {
+        use_cascades(scene, voxels, cascades);
+        Renderer renderer = new_renderer();
+        const auto picture = still(renderer, scene, camera, size);
+        double sum = 0;
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                const float* p = &picture[4 * static_cast<std::size_t>(y * size + x)];
+                const double expected = units::luminance(truth.image.rgb(x, y));
+                sum += std::abs(units::luminance(glm::vec3(p[0], p[1], p[2])) / expected - 1);
+            }
+        const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+        save(name + "-" + std::to_string(voxels) + "-" + std::to_string(cascades), picture, size, camera);
+        if (prints_accuracy_table())
+            std::printf("| %s | %d cascades of %d³ | mean error %.2f %% |\n", name.c_str(), cascades, voxels, 100 * sum / (size * size));
+        return sum / (size * size);
+    }
     static Picture path_traced(const Scene& scene, const Camera& camera, int size, int samples) {
         PathTracer tracer;
         if (auto updated = tracer.update(scene); !updated) throw std::runtime_error(updated.error().text());
@@ -136,26 +154,25 @@ TEST_F(GiCascades, AStepOfTheCameraCostsAFractionOfVoxelizingAll) {
 }
 
 TEST_F(GiCascades, ARoomThatGlowsEvenlyIsAsBrightWithAnyNumberOfCascades) {
+    const int voxels = std::getenv("HELIODON_FULL") ? 64 : 32;
+    double one = 0;
     for (const int cascades : {1, 3, 5}) {
         Scene scene;
         Material glowing = lambert(glm::vec3(0.5f));
         glowing.emission_nits = {10, 20, 30};
         add_room(scene, {-1, 0, -1}, {1, 1.5f, 1.2f}, scene.add_material(glowing));
-        use_cascades(scene, 64, cascades);
+        use_cascades(scene, voxels, cascades);
+        change_settings(scene, [](RenderSettings& s) { s.vct.cones = 36; });
         Renderer renderer = new_renderer();
-        for (const Camera& camera : {looking({0.1f, 0.7f, 0.3f}, {-1, 0.4f, -1}), looking({-0.85f, 0.15f, 0.9f}, {1, 0.4f, -1})}) {
-            const auto picture = still(renderer, scene, camera, 32);
-            double sum = 0, worst = 0;
-            for (std::size_t i = 0; i < picture.size(); ++i) {
-                if (i % 4 == 3) continue;
-                const double ratio = picture[i] / (2.0 * glowing.emission_nits[static_cast<int>(i % 4)]);
-                sum += ratio / (0.75 * static_cast<double>(picture.size()));
-                worst = std::max(worst, std::abs(ratio - 1));
-            }
-            if (prints_accuracy_table())
-                std::printf("| furnace, %d cascades of 64³ | mean %+.2f %% | worst pixel %.1f %% |\n", cascades, 100 * (sum - 1), 100 * worst);
-            EXPECT_NEAR(sum, 1, 0.05) << cascades;
-        }
+        constexpr int size = 16;
+        const auto picture = still(renderer, scene, looking({-0.5f, 0.3f, 0.6f}, {-1, 0.2f, -1}), size, 2);
+        double ratio = 0;
+        for (std::size_t i = 0; i < picture.size(); ++i)
+            if (i % 4 != 3) ratio += picture[i] / (2.0 * glowing.emission_nits[static_cast<int>(i % 4)]) / (3 * size * size);
+        if (prints_accuracy_table()) std::printf("| furnace, %d cascades of %d³ | mean %+.2f %% |\n", cascades, voxels, 100 * (ratio - 1));
+        EXPECT_NEAR(ratio, 1, 0.05) << cascades;
+        if (cascades == 1) one = ratio;
+        EXPECT_NEAR(ratio, one, 0.01) << cascades;
     }
 }
 
@@ -180,28 +197,34 @@ struct NearThings {
 
 TEST_F(GiCascades, NearTheCameraCascadesAreNearerToThePathTracerThanOneGrid) {
     NearThings things;
-    constexpr int size = 48;
+    constexpr int size = 32;
     const Picture truth = path_traced(things.scene, things.camera, size, 256);
-    const auto error = [&](int voxels, int cascades) {
-        use_cascades(things.scene, voxels, cascades);
-        Renderer renderer = new_renderer();
-        const auto picture = still(renderer, things.scene, things.camera, size);
-        double sum = 0;
-        for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) {
-                const float* p = &picture[4 * static_cast<std::size_t>(y * size + x)];
-                const double expected = units::luminance(truth.image.rgb(x, y));
-                sum += std::abs(units::luminance(glm::vec3(p[0], p[1], p[2])) / expected - 1);
-            }
-        save("near-" + std::to_string(voxels) + "-" + std::to_string(cascades), picture, size, things.camera);
-        if (prints_accuracy_table())
-            std::printf("| near things, %d cascades of %d³ | mean error %.2f %% |\n", cascades, voxels, 100 * sum / (size * size));
-        return sum / (size * size);
-    };
+    const auto error = [&](int voxels, int cascades) { return error_of(things.scene, things.camera, size, truth, voxels, cascades); };
     save("near-truth", truth);
     const double one = error(64, 1), nested = error(64, 3);
     EXPECT_LT(nested, one);
     if (std::getenv("HELIODON_FULL")) { EXPECT_LT(nested, 1.2 * error(256, 1)); }
+}
+
+TEST_F(GiCascades, AScene1KilometreWideIsNearerToThePathTracerThanWithOneGrid) {
+    if (!std::getenv("HELIODON_FULL")) GTEST_SKIP() << "at full size only";
+    Scene scene;
+    scene.set_sky({.model = SkyModel::constant, .luminance_nits = {4000, 5000, 7000}});
+    add_floor(scene, 500, scene.add_material(lambert({0.35f, 0.33f, 0.3f})));
+    const std::array<MaterialId, 2> walls{scene.add_material(lambert(glm::vec3(0.7f))), scene.add_material(lambert({0.6f, 0.2f, 0.12f}))};
+    for (int i = 0; i < 24; ++i) {
+        const glm::vec3 corner((i % 2 ? 10.0f : -32.0f) + static_cast<float>(i % 5), 0, 60 - 12.0f * static_cast<float>(i));
+        add_shape_node(scene, Box{corner, corner + glm::vec3(22, 8 + static_cast<float>(7 * i % 23), 10)}, walls[i / 2 % 2]);
+    }
+    add_sun(scene, {-0.7f, -0.8f, -0.35f}, {60000, 56000, 50000});
+    Camera camera = looking({0, 12, 40}, {2, 6, 0});
+    camera.ev100_override = 14.0f;
+    constexpr int size = 32;
+    const Picture truth = path_traced(scene, camera, size, 256);
+    save("kilometre-truth", truth);
+    const double nested = error_of(scene, camera, size, truth, 64, 5);  // measured: 10.3 %, one grid: 12.3 %
+    EXPECT_LT(nested, error_of(scene, camera, size, truth, 64, 1));
+    EXPECT_LT(nested, 0.11);
 }
 
 TEST_F(GiCascades, SmallStepsOfTheCameraChangeThePointsLightLittle) {
