@@ -102,7 +102,7 @@ Result<void> VoxelVolume::make_texture(VkExtent3D extent) {
     }
     ++texture_revision_;
     shown_ = {};
-    inputs_ = {&faces_, &depths_, &data_buffer_, *trilinear};
+    inputs_ = {&faces_, &depths_, &data_buffer_, *trilinear, 2 * extent.height > extent.width};
     shown_inputs_ = inputs_;
     shown_inputs_.data = &shown_buffer_;
     return device_.run("clear volume", [&](gpu::Commands& commands) {

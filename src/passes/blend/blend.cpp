@@ -23,7 +23,7 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
     description.depth_write = false;
     auto collect = pipelines.graphics(description);
     if (!collect) return tl::unexpected(collect.error());
-    auto compose = pipelines.compute("passes/blend/blend.comp", {{7, lighting.cone_shadows ? 1u : 0u}});
+    auto compose = pipelines.compute("passes/blend/blend.comp", cone_constants(*lighting.volume, lighting.cone_shadows));
     if (!compose) return tl::unexpected(compose.error());
 
     const graph::BufferHandle heads =

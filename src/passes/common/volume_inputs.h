@@ -2,6 +2,7 @@
 
 #include "gpu/buffer.h"
 #include "gpu/image.h"
+#include "gpu/pipeline.h"
 #include "graph/graph.h"
 
 namespace heliodon::passes {
@@ -12,7 +13,13 @@ struct VolumeInputs {
     const gpu::Image* depths = nullptr;    ///< R16F, likewise
     const gpu::Buffer* data = nullptr;     ///< VolumeData
     VkSampler trilinear = VK_NULL_HANDLE;  ///< linear within a level, nearest level, edges clamped
+    bool nested = false;                   ///< of several cascades; pipelines are chosen by it
 };
+
+/// Constant 6 of every shader that traces cones, and 7 of those that look for lights' shadows with them.
+[[nodiscard]] inline gpu::Specialization cone_constants(const VolumeInputs& volume, bool cone_shadows = false) {
+    return {{6, volume.nested ? 1u : 0u}, {7, cone_shadows ? 1u : 0u}};
+}
 
 /// Its images in a graph.
 struct VolumeImages {

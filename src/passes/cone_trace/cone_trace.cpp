@@ -12,7 +12,7 @@ struct HalfDiffuse {
 Result<HalfDiffuse> add_half_diffuse(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                      const LightingInputs& lighting, const VolumeInputs& volume, const VolumeImages& images,
                                      const Visibility& visibility, VkExtent2D extent) {
-    auto pipeline = pipelines.compute("passes/cone_trace/half_diffuse.comp");
+    auto pipeline = pipelines.compute("passes/cone_trace/half_diffuse.comp", {{6, volume.nested ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     const VkExtent3D half{(extent.width + 1) / 2, (extent.height + 1) / 2, 1};
     const HalfDiffuse result{
@@ -48,7 +48,7 @@ Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, cons
                             const Visibility& visibility, graph::ImageHandle picture, VkExtent2D extent,
                             const ConeTraceOptions& options) {
     auto pipeline = pipelines.compute("passes/cone_trace/cone_trace.comp",
-                                      {{0, options.aov ? 1u : 0u}, {1, options.half_resolution ? 1u : 0u}});
+                                      {{0, options.aov ? 1u : 0u}, {1, options.half_resolution ? 1u : 0u}, {6, volume.nested ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     HalfDiffuse diffuse{visibility.depth, visibility.depth};  // read by nothing, unless by the other half
     if (options.half_resolution) {

@@ -9,6 +9,7 @@
 
 layout(set = 0, binding = 20) uniform sampler3D voxel_faces_texture;
 layout(set = 0, binding = 22) uniform sampler3D voxel_depths_texture;
+layout(constant_id = 6) const bool nested = true;  // there is more than one cascade
 layout(set = 0, binding = 21, std430) readonly buffer Volume_ { VolumeData volume; };
 
 /// World to the lattice of the finest voxels.
@@ -17,7 +18,7 @@ vec3 to_lattice(vec3 world) { return (world - volume.lattice) / volume.voxel_m; 
 /// The finest level whose cascade holds the position.
 float level_holding(vec3 position) {
     float level = 0.0f;
-    for (uint c = 0u; c + 1u < volume.cascades; ++c) {
+    for (uint c = 0u; nested && c + 1u < volume.cascades; ++c) {
         const vec3 at = position * exp2(-float(c)) - vec3(volume.cascade[c].base);
         if (all(greaterThanEqual(at, vec3(1.0f))) && all(lessThanEqual(at, vec3(float(volume.size) - 1.0f)))) break;
         level += 1.0f;
@@ -61,14 +62,14 @@ vec3 face_coordinates(vec3 position, float edge, float level) {
     vec3 at = position;
     float cascade = 0.0f;
     float texel = edge;
-    if (volume.cascades > 1u) {
+    if (nested) {
         cascade = min(level, float(volume.cascades - 1u));
         at = at * exp2(-cascade) - vec3(volume.cascade[uint(cascade)].base);
         texel *= exp2(-cascade);
     }
     at = clamp(at, vec3(0.5f * texel), vec3(size - 0.5f * texel));
     at.y += size * cascade;
-    return at / (size * vec3(2.0f, float(volume.cascades), 3.0f));
+    return at / (size * vec3(2.0f, nested ? float(volume.cascades) : 1.0f, 3.0f));
 }
 
 // Cones that graze a layer at less than a quarter of its slope pass it too seldom to matter.
@@ -84,107 +85,89 @@ ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float r
     ConeResult result = ConeResult(vec3(0.0f), 0.0f);
     // Each axis is walked forward: where the cone goes backward, in the lattice's mirror image. The lattice is as wide as
     // the widest cascade, whose voxels of every level mirror onto themselves.
-    const float wide = exp2(float(volume.cascades - 1u)) * float(volume.size);
+    const float wide = (nested ? exp2(float(volume.cascades - 1u)) : 1.0f) * float(volume.size);
     const bvec3 backward = lessThan(direction, vec3(0.0f));
     const vec3 start = mix(origin, wide - origin, backward);
-    const vec3 inverse = 1.0f / max(abs(direction), vec3(1.0e-12f));
+    const vec3 slope = max(abs(direction), vec3(1.0e-12f));
+    const vec3 inverse = 1.0f / slope;
     const vec3 entries = -start * inverse;
     const float begin = max(0.0f, max(entries.x, max(entries.y, entries.z)));
     const vec3 exits = (wide - start) * inverse;
     const float end = min(reach, min(exits.x, min(exits.y, exits.z)));
     const float coarsest = 0.5f * wide;  // edge of the voxels of the level before the last
-    // A ray that goes forward sees what looks backward.
-    const vec3 side = mix(vec3(0.5f), vec3(0.0f), backward);
     // A texel is the mean over its edge and interpolation spreads it by another: it reaches 3/2 edges to each side. Where
     // that is the cone's radius the level fits; an axis goes to the next one at √2 times it, to the nearest level.
     const float radius = tan_half_angle * (inversesqrt(2.0f) / 1.5f);
-
-    vec3 level = vec3(level_holding(origin + direction * begin));
-    vec3 edge = exp2(level);
-    vec3 layer = floor((start + abs(direction) * begin) / edge);
     // A cone that grazes a layer goes far along it, and looks at it once a voxel, so that what stands at the layer's near
     // side is seen before the cone has passed it by.
-    const vec3 size = abs(direction);
-    const vec3 looks = clamp(ceil(max(size.yzx, size.zxy) * inverse), vec3(1.0f), vec3(most_looks));
-    vec3 look = vec3(0.0f);
-    vec3 next = max(((layer + 0.5f / looks) * edge - start) * inverse, vec3(begin));
+    const vec3 look = 1.0f / clamp(ceil(max(slope.yzx, slope.zxy) * inverse), vec3(1.0f), vec3(most_looks));
+
+    vec3 edge = vec3(nested ? exp2(level_holding(origin + direction * begin)) : 1.0f);
+    vec3 next = max(((floor((start + slope * begin) / edge) + 0.5f * look) * edge - start) * inverse, vec3(begin));
     while (true) {
         const float t = min(next.x, min(next.y, next.z));
         if (!(t <= end)) break;
-        // The axis whose layer's middle comes first; of several, one.
+        // The axis whose look comes first; of several, one.
         const bool x = next.x <= t;
         const bool y = !x && next.y <= t;
-        float axis_edge = x ? edge.x : y ? edge.y : edge.z;
-        float axis_level = x ? level.x : y ? level.y : level.z;
+        const bvec3 axis = bvec3(x, y, !x && !y);
+        const vec3 unit = vec3(axis);
+        float axis_edge = dot(unit, edge);
+        const float axis_start = dot(unit, start);
+        const float axis_slope = dot(unit, slope);
+        const float axis_inverse = dot(unit, inverse);
+        const float walked = axis_start + axis_slope * t;
+        const float layer = floor(walked / axis_edge);
         const vec3 position = origin + direction * t;
-        if (volume.cascades > 1u && level_holding(position) > axis_level) {
+        if (nested && exp2(level_holding(position)) > axis_edge) {
             // Past its cascade an axis goes on in the layer of the next one that holds this layer, if it lies ahead.
-            const bvec3 axis = bvec3(x, y, !x && !y);
-            vec3 outer = floor(0.5f * layer);
-            const vec3 middle = ((outer + 0.5f) * 2.0f * edge - start) * inverse;
-            outer += mix(vec3(0.0f), vec3(1.0f), lessThan(middle, vec3(begin)));
-            layer = mix(layer, outer, axis);
-            edge = mix(edge, 2.0f * edge, axis);
-            level = mix(level, level + 1.0f, axis);
-            next = mix(next, ((layer + 0.5f) * edge - start) * inverse, axis);
+            axis_edge *= 2.0f;
+            float outer = floor(0.5f * layer);
+            if (((outer + 0.5f) * axis_edge - axis_start) * axis_inverse < begin) outer += 1.0f;
+            edge = mix(edge, vec3(axis_edge), axis);
+            next = mix(next, vec3(((outer + 0.5f) * axis_edge - axis_start) * axis_inverse), axis);
             continue;
         }
-        const vec3 corner = vec3(x ? side.x : y ? side.y : side.z, 0.0f, x ? 0.0f : y ? 1.0f / 3.0f : 2.0f / 3.0f);
-        const float mip = axis_level - (volume.cascades > 1u ? min(axis_level, float(volume.cascades - 1u)) : 0.0f);
-        // Along the axis a layer's texels are looked up in their middle, wherever the face stands: layers do not mix.
-        const float here = x ? layer.x : y ? layer.y : layer.z;
-        const bool turned = x ? backward.x : y ? backward.y : backward.z;
-        const float forward_middle = (here + 0.5f) * axis_edge;
-        const vec3 of_layer = vec3(turned ? wide - forward_middle : forward_middle);
-        const bvec3 axis = bvec3(x, y, !x && !y);
-        const vec3 at = corner + face_coordinates(mix(position, of_layer, axis), axis_edge, axis_level);
-        vec4 face = textureLod(voxel_faces_texture, at, mip);
-        if (face.a > 0.0f) {
+        const bool turned = any(bvec3(axis.x && backward.x, axis.y && backward.y, axis.z && backward.z));
+        const float level = float(findMSB(uint(axis_edge)));
+        const float mip = nested ? level - min(level, float(volume.cascades - 1u)) : level;
+        // A ray that goes forward sees what looks backward. Along the axis a layer's texels are looked up in their middle,
+        // wherever the face stands: layers do not mix.
+        const vec3 corner = vec3(turned ? 0.0f : 0.5f, 0.0f, y ? 1.0f / 3.0f : x ? 0.0f : 2.0f / 3.0f);
+        const float forward_middle = (layer + 0.5f) * axis_edge;
+        const vec3 middle = vec3(turned ? wide - forward_middle : forward_middle);
+        const vec3 at = corner + face_coordinates(mix(position, middle, axis), axis_edge, level);
+        bool met = false;
+        const vec4 seen = textureLod(voxel_faces_texture, at, mip);
+        if (seen.a > 0.0f) {
             // Where the cone meets it, if it does ahead of its origin and within its reach.
-            const float depth = clamp(textureLod(voxel_depths_texture, at, mip).r / face.a, 0.0f, 1.0f);
-            const float there = here + (turned ? 1.0f - depth : depth);
-            const float meets = x ? (there * axis_edge - start.x) * inverse.x
-                                  : y ? (there * axis_edge - start.y) * inverse.y : (there * axis_edge - start.z) * inverse.z;
-            if (meets >= begin && meets <= end)
-                face = textureLod(voxel_faces_texture, corner + face_coordinates(mix(origin + direction * meets, of_layer, axis), axis_edge, axis_level), mip);
-            else
-                face = vec4(0.0f);
+            const float depth = clamp(textureLod(voxel_depths_texture, at, mip).r / seen.a, 0.0f, 1.0f);
+            const float meets = ((layer + (turned ? 1.0f - depth : depth)) * axis_edge - axis_start) * axis_inverse;
+            if (meets >= begin && meets <= end) {
+                const vec3 place = corner + face_coordinates(mix(origin + direction * meets, middle, axis), axis_edge, level);
+                const vec4 face = textureLod(voxel_faces_texture, place, mip);
+                met = face.a > 0.0f;
+                const float gained = min(face.a, 1.0f - result.cover);
+                if (met) result.radiance += face.rgb * (gained / face.a);
+                result.cover += gained;
+                if (result.cover >= 0.999f) break;
+            }
         }
-        if (face.a > 0.0f) {
-            const float gained = min(face.a, 1.0f - result.cover);
-            result.radiance += face.rgb * (gained / face.a);
-            result.cover += gained;
-            if (result.cover >= 0.999f) break;
+        // The layer is done with once something of it was met. An axis goes to the coarser level where its next layer
+        // begins one there, so that each layer counts once.
+        const float axis_look = dot(unit, look);
+        const float ahead = walked / axis_edge + axis_look;
+        float onward = ahead;
+        if (met || ahead >= layer + 1.0f) {
+            onward = layer + 1.0f;
+            if (t * radius >= axis_edge && axis_edge < coarsest && fract(0.5f * onward) == 0.0f) {
+                onward *= 0.5f;
+                axis_edge *= 2.0f;
+            }
+            onward += 0.5f * axis_look;
         }
-        const float axis_looks = x ? looks.x : y ? looks.y : looks.z;
-        float axis_look = (x ? look.x : y ? look.y : look.z) + 1.0f;
-        float axis_layer = here;
-        const bool onward = face.a > 0.0f || axis_look >= axis_looks;
-        if (onward) {
-            axis_look = 0.0f;
-            axis_layer += 1.0f;
-        }
-        // An axis goes to the coarser level where its next layer begins one there, so that each layer counts once.
-        const bool coarser = t * radius >= axis_edge && axis_edge < coarsest;
-        if (onward && coarser && fract(0.5f * axis_layer) == 0.0f) {
-            axis_layer *= 0.5f;
-            axis_edge *= 2.0f;
-            axis_level += 1.0f;
-        }
-        const float middle = (axis_layer + (axis_look + 0.5f) / axis_looks) * axis_edge;
-        if (x) {
-            look.x = axis_look;
-            layer.x = axis_layer, edge.x = axis_edge, level.x = axis_level;
-            next.x = (middle - start.x) * inverse.x;
-        } else if (y) {
-            look.y = axis_look;
-            layer.y = axis_layer, edge.y = axis_edge, level.y = axis_level;
-            next.y = (middle - start.y) * inverse.y;
-        } else {
-            look.z = axis_look;
-            layer.z = axis_layer, edge.z = axis_edge, level.z = axis_level;
-            next.z = (middle - start.z) * inverse.z;
-        }
+        edge = mix(edge, vec3(axis_edge), axis);
+        next = mix(next, vec3((onward * axis_edge - axis_start) * axis_inverse), axis);
     }
     result.radiance *= volume.radiance_unit;
     return result;

@@ -85,7 +85,7 @@ Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, co
 Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                               const LightingInputs& lighting, const InjectCascade& cascade, const ShadowMaps& shadow_maps,
                               const VolumeImages& images) {
-    auto pipeline = pipelines.compute("passes/inject/direct.comp", {{7, lighting.cone_shadows ? 1u : 0u}});
+    auto pipeline = pipelines.compute("passes/inject/direct.comp", cone_constants(*lighting.volume, lighting.cone_shadows));
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         "inject lights", PassKind::compute,
@@ -120,7 +120,7 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
 
 Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VolumeInputs& volume,
                         const InjectCascade& cascade, const VolumeImages& images) {
-    auto pipeline = pipelines.compute("passes/inject/gather.comp");
+    auto pipeline = pipelines.compute("passes/inject/gather.comp", {{6, volume.nested ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         "gather", PassKind::compute,

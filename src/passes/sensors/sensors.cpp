@@ -8,7 +8,7 @@ Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, 
                             const LightingInputs& lighting, const gpu::Image& shadow_depth,
                             const gpu::Image& shadow_slope, const gpu::Buffer& sensors, std::uint32_t count,
                             const SensorLights& lights) {
-    auto pipeline = pipelines.compute("passes/sensors/sensors.comp", {{7, lighting.cone_shadows ? 1u : 0u}});
+    auto pipeline = pipelines.compute("passes/sensors/sensors.comp", cone_constants(*lighting.volume, lighting.cone_shadows));
     if (!pipeline) return tl::unexpected(pipeline.error());
     const shading::SensorConstants push{count, lights.first, lights.count, lights.sky ? 1u : 0u};
     const auto bindings = select_bindings(**pipeline, scene,
@@ -27,7 +27,7 @@ Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, 
 
 Result<void> record_cone_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                  const VolumeInputs& volume, const gpu::Buffer& sensors, std::uint32_t count) {
-    auto pipeline = pipelines.compute("passes/sensors/cone_sensors.comp");
+    auto pipeline = pipelines.compute("passes/sensors/cone_sensors.comp", {{6, volume.nested ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     const auto bindings = select_bindings(
         **pipeline, scene, {{12, sensors}, {20, gpu::Binding(*volume.faces, volume.trilinear)}, {21, *volume.data},

@@ -5,7 +5,9 @@ namespace heliodon::passes {
 Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                      const LightingInputs& lighting, const Visibility& visibility,
                                      const ShadowMaps& shadow_maps, const VolumeImages& volume, VkExtent2D extent, bool aov) {
-    auto pipeline = pipelines.compute("passes/shade/shade.comp", {{0, aov ? 1u : 0u}, {7, lighting.cone_shadows ? 1u : 0u}});
+    gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
+    constants[0] = aov ? 1 : 0;
+    auto pipeline = pipelines.compute("passes/shade/shade.comp", constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
     const graph::ImageHandle picture = graph.create_image(
         {.name = "radiance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {extent.width, extent.height, 1}});
