@@ -27,10 +27,17 @@ function(heliodon_sanitize TARGET)
   endif()
 endfunction()
 
-# A test executable test_<room> from every .cpp of tests/<room>.
+# A test executable test_<room> from every .cpp of tests/<room>, or only those that match ONLY or do not match EXCEPT:
+# a room whose tests take long has two, which run at the same time.
 function(heliodon_test ROOM)
-  cmake_parse_arguments(ARG "" "" "USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "ONLY;EXCEPT" "USES;LIBRARIES" ${ARGN})
   file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(ARG_ONLY)
+    list(FILTER SOURCES INCLUDE REGEX "/${ARG_ONLY}[^/]*$")
+  endif()
+  if(ARG_EXCEPT)
+    list(FILTER SOURCES EXCLUDE REGEX "/${ARG_EXCEPT}[^/]*$")
+  endif()
   if(NOT SOURCES)
     return()
   endif()
