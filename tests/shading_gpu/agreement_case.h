@@ -46,7 +46,7 @@ SHADING_FN LightData agreement_light(uint i) {
     light.cos_inner = 0.9f;
     light.cos_outer = -0.5f;
     light.shadow = 0u;
-    light.padding0 = 0.0f;
+    light.cone_radius = 0.0f;
     light.padding1 = 0.0f;
     return light;
 }
