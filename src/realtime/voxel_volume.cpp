@@ -296,7 +296,6 @@ Result<void> VoxelVolume::upload_data(shading::VolumeData data) {
     all.effects = data.effects;
     all.cone_sets = data.cone_sets;
     all.gather_sets = data.gather_sets;
-    all.sequence = data.sequence;
     for (auto& cascade : cascades_) cascade->constants.grid.radiance_unit = data.radiance_unit;
     data_.radiance_unit = data.radiance_unit;
     if (shown_.size == 0) shown_ = data_;

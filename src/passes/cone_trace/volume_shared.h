@@ -24,7 +24,7 @@ struct VolumeData {
     uint effects;         // gi_effect_…
     uint cone_sets;       // of nine cones, for a pixel
     uint gather_sets;     // of nine cones, for a voxel's face
-    uint sequence;        // of this frame's cones
+    uint padding;
     VolumeCascade cascade[8];
 };
 
