@@ -49,7 +49,8 @@ FrameSample unmoved(const FrameSample& sample) {
 Result<void> FrameRenderer::prepare_volume(const Camera& camera) {
     const VoxelVolume::Source source{gpu_scene_, inputs_, lighting_, shadow_depth_, shadow_slope_};
     const VoxelSettings settings{settings_.voxels, settings_.cascades, settings_.voxelizer == Voxelizer::raster,
-                                 settings_.revoxelize == Revoxelize::always};
+                                 settings_.revoxelize == Revoxelize::always,
+                                 settings_.vct.filtering == VoxelFiltering::isotropic};
     if (auto done = voxels_.prepare(source, settings, camera.position); !done) return done;
     wanted_.volume = voxels_.texture_revision();
     return {};

@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "passes/empty_cubes/empty_cubes.h"
+
 namespace heliodon::realtime {
 namespace {
 
@@ -102,7 +104,10 @@ Result<void> VoxelVolume::make_texture(VkExtent3D extent) {
     }
     ++texture_revision_;
     shown_ = {};
-    inputs_ = {&faces_, &depths_, &data_buffer_, *trilinear, 2 * extent.height > extent.width};
+    auto cubes = zeroed(device_, "empty cubes", sizeof(std::uint32_t) * passes::empty_cube_words(extent.width / 2));
+    if (!cubes) return tl::unexpected(cubes.error());
+    cubes_ = std::move(*cubes);
+    inputs_ = {&faces_, &depths_, &data_buffer_, &cubes_, *trilinear, 2 * extent.height > extent.width};
     shown_inputs_ = inputs_;
     shown_inputs_.data = &shown_buffer_;
     return device_.run("clear volume", [&](gpu::Commands& commands) {
@@ -172,6 +177,7 @@ Result<void> VoxelVolume::place(const GpuScene& scene, glm::vec3 eye) {
     shading::VolumeData wanted = data_;
     wanted.size = static_cast<std::uint32_t>(settings_.voxels);
     wanted.cascades = static_cast<std::uint32_t>(settings_.cascades);
+    wanted.isotropic = settings_.isotropic ? 1 : 0;
     wanted.voxel_m = std::ldexp(widest_voxel, -last);
     wanted.lattice = bounds.min - margin * widest_voxel;
     for (int c = 0; c <= last; ++c) {

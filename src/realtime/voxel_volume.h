@@ -15,6 +15,7 @@ struct VoxelSettings {
     int voxels = 128, cascades = 1;
     bool raster = false;  ///< the hardware rasterizer voxelizes
     bool anew = false;    ///< all surfaces each time, also those that never moved
+    bool isotropic = false;  ///< a voxel shows one value to all sides
     bool operator==(const VoxelSettings&) const = default;
 };
 
@@ -137,6 +138,7 @@ private:
     float emission_unit_ = 1;
     gpu::Buffer data_buffer_, shown_buffer_;
     gpu::Image faces_, depths_;
+    gpu::Buffer cubes_;  // passes/empty_cubes
     passes::VolumeInputs inputs_, shown_inputs_;  // shown_inputs_: for light gathered while the texture is made anew
 };
 

@@ -133,6 +133,9 @@ enum class Voxelizer : std::uint8_t { automatic, raster, compute };
 /// Who rasterizes the picture and the shadow maps: likewise.
 enum class Rasterizer : std::uint8_t { automatic, hardware, compute };
 
+/// What a voxel shows: its own value to each of six sides, or one value to all (docs/gi-theory.md).
+enum class VoxelFiltering : std::uint8_t { anisotropic, isotropic };
+
 /// Effects of voxel cone tracing, each of which switches alone.
 struct ConeTracingSettings {
     bool diffuse = true, specular = true, refraction = true;
@@ -140,6 +143,7 @@ struct ConeTracingSettings {
     bool ao = true;                ///< off: the sky is not occluded
     int cones = 9;                 ///< over the hemisphere; a multiple of 9
     bool half_resolution = false;  ///< diffuse cones at every second pixel, upsampled by depth and normal
+    VoxelFiltering filtering = VoxelFiltering::anisotropic;
     bool operator==(const ConeTracingSettings&) const = default;
 };
 

@@ -72,6 +72,9 @@ ConeTracingSettings read_cone_tracing(const JsonCursor& cursor) {
         if (settings.cones % hemisphere_cones != 0) cones->refuse(fmt::format("a multiple of {}", hemisphere_cones));
     }
     object.read("half_resolution", settings.half_resolution);
+    if (const auto filtering = object.find("filtering"))
+        settings.filtering = filtering->one_of<VoxelFiltering>(
+            {{"anisotropic", VoxelFiltering::anisotropic}, {"isotropic", VoxelFiltering::isotropic}});
     object.finish();
     return settings;
 }

@@ -239,7 +239,8 @@ TEST(SceneFile, ReadsEverySettingOfVoxelConeTracing) {
     EXPECT_EQ(plain.render_settings().bounces, 0) << "all of them";
     const Scene scene = parsed(R"({"heliodon": 1, "render": {"gi": "vct", "voxels": 512, "cascades": 5, "bounces": 2,
         "revoxelize": "always", "voxelizer": "compute", "rasterizer": "hardware", "vct": {"diffuse": false, "specular": false,
-        "refraction": false, "shadows": true, "ao": false, "cones": 36, "half_resolution": true}}})");
+        "refraction": false, "shadows": true, "ao": false, "cones": 36, "half_resolution": true,
+        "filtering": "isotropic"}}})");
     const RenderSettings& render = scene.render_settings();
     EXPECT_EQ(render.voxels, 512);
     EXPECT_EQ(render.cascades, 5);
@@ -253,7 +254,8 @@ TEST(SceneFile, ReadsEverySettingOfVoxelConeTracing) {
                                                .shadows = true,
                                                .ao = false,
                                                .cones = 36,
-                                               .half_resolution = true}));
+                                               .half_resolution = true,
+                                               .filtering = VoxelFiltering::isotropic}));
 }
 
 TEST(SceneFile, AMaterialOnAMeshReplacesThoseOfTheModel) {

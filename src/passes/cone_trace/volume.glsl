@@ -50,7 +50,9 @@ float surface_edge(vec3 start, float lift) {
 vec3 cone_origin(vec3 position, vec3 geometric, float least_edge) {
     const vec3 start = to_lattice(position);
     const float total = abs(geometric.x) + abs(geometric.y) + abs(geometric.z);
-    const float lift = 1.5f * total - 1.0f / total;
+    // Voxels of one value show the plane to the axes that it does not face too: past what spreads furthest.
+    const float least = min(abs(geometric.x), min(abs(geometric.y), abs(geometric.z)));
+    const float lift = 1.5f * total - (volume.isotropic != 0u ? least : 1.0f / total);
     return start + geometric * (lift * max(least_edge, surface_edge(start, lift)));
 }
 vec3 cone_origin(vec3 position, vec3 geometric) { return cone_origin(position, geometric, 1.0f); }

@@ -24,7 +24,7 @@ struct VolumeData {
     uint effects;         // gi_effect_…
     uint cone_sets;       // of nine cones, for a pixel
     uint gather_sets;     // of nine cones, for a voxel's face
-    uint padding;
+    uint isotropic;       // 1: a voxel shows one value to all sides
     VolumeCascade cascade[8];
 };
 

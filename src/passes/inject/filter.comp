@@ -2,14 +2,17 @@
 #extension GL_GOOGLE_include_directive : require
 // One coarser level. Of two voxels behind each other the front one covers the rear one, pieces of one surface side by
 // side (docs/gi-theory.md), and four such pairs side by side are averaged.
+#include "passes/inject/isotropic.glsl"
 #include "passes/inject/level_work.glsl"
 
 layout(set = 0, binding = 20, rgba16f) uniform readonly image3D fine;
 layout(set = 0, binding = 21, rgba16f) uniform writeonly image3D coarse;
 layout(set = 0, binding = 22, r16f) uniform readonly image3D fine_depths;
 layout(set = 0, binding = 23, r16f) uniform writeonly image3D coarse_depths;
+layout(constant_id = 0) const bool isotropic = false;
 
-void write_filtered(ivec3 texel, int axis, int side) {
+/// What the coarse texel of one side shows; `depth_out`: depth × cover.
+vec4 filtered(ivec3 texel, int axis, int side, out float depth_out) {
     const ivec3 first = 2 * texel;
     ivec3 along = ivec3(0);
     ivec3 across_u = ivec3(0);
@@ -32,14 +35,48 @@ void write_filtered(ivec3 texel, int axis, int side) {
         const float rear_depth = imageLoad(fine_depths, rear).r + (side == 0 ? 0.0f : rear_face.a);
         depth += 0.5f * (front_depth + seen * rear_depth);
     }
-    imageStore(coarse, texel, 0.25f * sum);
-    imageStore(coarse_depths, texel, vec4(0.25f * depth));
+    depth_out = 0.25f * depth;
+    return 0.25f * sum;
+}
+
+void write(ivec3 texel, vec4 value, float depth) {
+    imageStore(coarse, texel, value);
+    imageStore(coarse_depths, texel, vec4(depth));
+}
+
+/// One value for all sides, as the finest voxels have it.
+void write_isotropic(ivec3 voxel, int size) {
+    float cover = 0.0f;
+    vec4 sum = vec4(0.0f);
+    vec3 depth = vec3(0.0f);  // mean along each axis
+    for (int axis = 0; axis < 3; ++axis) {
+        float positive;
+        float negative;
+        const vec4 front = filtered(face_corner(axis, 0, size) + voxel, axis, 0, positive);
+        const vec4 rear = filtered(face_corner(axis, 1, size) + voxel, axis, 1, negative);
+        cover = max(cover, max(front.a, rear.a));
+        sum += front + rear;
+        if (front.a + rear.a > 0.0f) depth[axis] = (positive + negative) / (front.a + rear.a);
+    }
+    const vec4 value = isotropic_value(sum, cover);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int side = 0; side < 2; ++side) write(face_corner(axis, side, size) + voxel, value, depth[axis] * cover);
 }
 
 void main() {
     ivec3 voxel;
     int size;
     if (!level_voxel(voxel, size)) return;
-    for (int axis = 0; axis < 3; ++axis)
-        for (int side = 0; side < 2; ++side) write_filtered(face_corner(axis, side, size) + voxel, axis, side);
+    if (isotropic) {
+        write_isotropic(voxel, size);
+        return;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int side = 0; side < 2; ++side) {
+            const ivec3 texel = face_corner(axis, side, size) + voxel;
+            float depth;
+            const vec4 value = filtered(texel, axis, side, depth);
+            write(texel, value, depth);
+        }
+    }
 }

@@ -149,7 +149,7 @@ Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const Sc
 
 Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
                           const VolumeImages& images, bool emission_only) {
-    auto pipeline = pipelines.compute("passes/inject/radiance.comp", {{0, emission_only ? 1u : 0u}});
+    auto pipeline = pipelines.compute("passes/inject/radiance.comp", {{0, emission_only ? 1u : 0u}, {1, cascade.isotropic ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         "radiance", PassKind::compute,
@@ -176,7 +176,7 @@ Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const 
 }
 
 Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade, const VolumeImages& images) {
-    auto pipeline = pipelines.compute("passes/inject/filter.comp");
+    auto pipeline = pipelines.compute("passes/inject/filter.comp", {{0, cascade.isotropic ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         "filter", PassKind::compute,

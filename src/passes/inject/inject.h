@@ -22,6 +22,7 @@ struct InjectCascade {
     VoxelSurfaces surfaces;
     graph::BufferHandle illuminance;  ///< of the lights in lux: 16 bytes a record's face
     graph::BufferHandle gathered;     ///< of the volume and the sky, as above
+    bool isotropic = false;           ///< a voxel shows one value to all sides
 };
 
 /// Keeps the lists of the voxels that the texture shows, unless they are kept already.

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Writes what the faces of every occupied voxel show: radiance × cover, and the share of the voxel's face they cover,
 // and how deep in the voxel they stand.
+#include "passes/inject/isotropic.glsl"
 #include "passes/inject/record_work.glsl"
 #include "shading/sampling.h"
 
@@ -10,31 +11,54 @@ layout(set = 0, binding = 20, rgba16f) uniform writeonly image3D faces;
 layout(set = 0, binding = 21, r16f) uniform writeonly image3D depths;
 layout(set = 0, binding = 22, std430) readonly buffer Gathered { vec4 gathered[]; };
 layout(constant_id = 0) const bool emission_only = false;
+layout(constant_id = 1) const bool isotropic = false;
 layout(push_constant) uniform Push { InjectConstants push; };
 
 const float largest_half = 65504.0f;
 
-void write_face(uint record, uint face_index, ivec3 texel) {
-    const VoxelFace face = voxel_face(push.grid, record, face_index);
-    if (face.area <= 0.0f) {
-        imageStore(faces, texel, vec4(0.0f));
-        imageStore(depths, texel, vec4(0.0f));
-        return;
-    }
+/// Radiance × cover in units of the grid's, and cover.
+vec4 face_value(VoxelFace face, uint index) {
+    if (face.area <= 0.0f) return vec4(0.0f);
     const float cover = min(face.area, 1.0f);
     vec3 radiance = face.emission * push.grid.emission_unit;
-    if (!emission_only) {
-        const uint index = record * voxel_faces + face_index;
-        radiance += cover * face.albedo * inverse_pi * (illuminance[index].rgb + gathered[index].rgb);
+    if (!emission_only) radiance += cover * face.albedo * inverse_pi * (illuminance[index].rgb + gathered[index].rgb);
+    return vec4(radiance / push.grid.radiance_unit, cover);
+}
+
+void write_face(ivec3 texel, vec4 value, float within) {
+    imageStore(faces, texel, vec4(min(value.rgb, vec3(largest_half)), value.a));
+    imageStore(depths, texel, vec4(value.a * clamp(within, 0.0f, 1.0f)));
+}
+
+/// One value and one place for all sides. Black rears have no part in the radiance.
+void write_isotropic(uint record, uvec3 voxel) {
+    float cover = 0.0f;
+    vec4 shining = vec4(0.0f);
+    vec4 place = vec4(0.0f);
+    for (uint i = 0u; i < voxel_faces; ++i) {
+        const VoxelFace face = voxel_face(push.grid, record, i);
+        const vec4 value = face_value(face, record * voxel_faces + i);
+        cover = max(cover, value.a);
+        place += value.a * vec4(face.within, 1.0f);
+        if (any(greaterThan(face.albedo + face.emission, vec3(0.0f)))) shining += value;
     }
-    imageStore(faces, texel, vec4(min(radiance / push.grid.radiance_unit, vec3(largest_half)), cover));
-    imageStore(depths, texel, vec4(cover * clamp(face.within[face_index >> 1u], 0.0f, 1.0f)));
+    const vec4 value = isotropic_value(shining, cover);
+    const vec3 within = place.a > 0.0f ? place.xyz / place.a : vec3(0.0f);
+    for (uint i = 0u; i < voxel_faces; ++i)
+        write_face(face_texel(voxel, i, push.grid.size, push.cascade), value, within[i >> 1u]);
 }
 
 void main() {
     const uint record = linear_invocation();
     if (record >= voxel_header.record_count) return;
     const uvec3 voxel = record_voxel(record, push.grid.size);
-    for (uint face = 0u; face < voxel_faces; ++face)
-        write_face(record, face, face_texel(voxel, face, push.grid.size, push.cascade));
+    if (isotropic) {
+        write_isotropic(record, voxel);
+        return;
+    }
+    for (uint i = 0u; i < voxel_faces; ++i) {
+        const VoxelFace face = voxel_face(push.grid, record, i);
+        const vec4 value = face_value(face, record * voxel_faces + i);
+        write_face(face_texel(voxel, i, push.grid.size, push.cascade), value, face.within[i >> 1u]);
+    }
 }
