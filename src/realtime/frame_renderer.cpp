@@ -281,7 +281,8 @@ Result<void> FrameRenderer::build_frame_graph() {
     const graph::ImageHandle sum = graph.import_image(sum_.description());
     graph.export_image(sum);
     const passes::VolumeImages volume{graph.import_image(voxels_.inputs().faces->description()),
-                                      graph.import_image(voxels_.inputs().depths->description())};
+                                      graph.import_image(voxels_.inputs().depths->description()),
+                                      graph.import_buffer(voxels_.inputs().cubes->description())};
     passes::DrawLists lists;
     auto visibility = add_visibility(graph, extent, lists);
     if (!visibility) return tl::unexpected(visibility.error());
@@ -312,6 +313,7 @@ Result<void> FrameRenderer::build_frame_graph() {
     frame_executor_->bind(sum, sum_);
     frame_executor_->bind(volume.faces, *voxels_.inputs().faces);
     frame_executor_->bind(volume.depths, *voxels_.inputs().depths);
+    frame_executor_->bind(volume.cubes, *voxels_.inputs().cubes);
     if (fragments) frame_executor_->bind(fragments, fragments_);
     if (display) frame_executor_->bind(display, display_);
     return {};

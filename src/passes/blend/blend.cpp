@@ -81,6 +81,7 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},
                                                    {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
+                                                   {23, *lighting.volume->cubes},
                                                    {12, context.buffer(fragments)},
                                                    {13, context.buffer(heads)},
                                                    {14, context.image(picture)}});

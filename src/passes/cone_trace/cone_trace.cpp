@@ -35,7 +35,8 @@ Result<HalfDiffuse> add_half_diffuse(graph::Graph& graph, gpu::Pipelines& pipeli
                                                    {14, context.image(result.places)},
                                                    {20, gpu::Binding(context.image(images.faces), volume.trilinear)},
                                                    {21, *volume.data},
-                                                   {22, gpu::Binding(context.image(images.depths), volume.trilinear)}});
+                                                   {22, gpu::Binding(context.image(images.depths), volume.trilinear)},
+                                                   {23, *volume.cubes}});
             context.commands.dispatch_threads(*trace, gpu::NoPushConstants{}, bindings, {half.width, half.height, 1});
         });
     return result;
@@ -76,7 +77,8 @@ Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, cons
                                                    {15, gpu::Binding(context.image(diffuse.places), lighting.nearest)},
                                                    {20, gpu::Binding(context.image(images.faces), volume.trilinear)},
                                                    {21, *volume.data},
-                                                   {22, gpu::Binding(context.image(images.depths), volume.trilinear)}});
+                                                   {22, gpu::Binding(context.image(images.depths), volume.trilinear)},
+                                                   {23, *volume.cubes}});
             context.commands.dispatch_threads(*trace, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
         });
     return {};

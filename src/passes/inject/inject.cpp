@@ -112,7 +112,8 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
                                                    {19, context.buffer(cascade.illuminance)},
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},
-                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)}});
+                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
+                                                   {23, *lighting.volume->cubes}});
             context.commands.dispatch_indirect(*direct, *cascade.constants, bindings, numbers, face_groups);
         });
     return {};
@@ -141,7 +142,8 @@ Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const Sc
                                                    {19, context.buffer(cascade.gathered)},
                                                    {20, gpu::Binding(context.image(images.faces), volume.trilinear)},
                                                    {21, *volume.data},
-                                                   {22, gpu::Binding(context.image(images.depths), volume.trilinear)}});
+                                                   {22, gpu::Binding(context.image(images.depths), volume.trilinear)},
+                                                   {23, *volume.cubes}});
             context.commands.dispatch_indirect(*gather, *cascade.constants, bindings, numbers, face_groups);
         });
     return {};

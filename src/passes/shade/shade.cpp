@@ -32,6 +32,7 @@ Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipeli
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},
                                                    {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
+                                                   {23, *lighting.volume->cubes},
                                                    {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
                                                    {13, context.image(picture)}});
             context.commands.dispatch_threads(*shade, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
