@@ -184,7 +184,7 @@ private:
     bool voxelize_ = false, relight_ = false;  // due in this frame
     std::uint64_t voxelized_texture_ = 0;
     std::uint64_t voxelized_surfaces_ = ~0ull, voxelized_placement_ = ~0ull;  // GpuScene's and VoxelVolume's revisions
-    int bounces_done_ = 0;                     // since the volume last changed
+    int bounce_frames_ = 0, gather_axis_ = 0;  // since the volume last changed; of the last frame
 
     ShadowPlan plan_;
     bool cone_shadows_ = false;  // lights with an extent are to cast their shadows by cones

@@ -17,9 +17,11 @@ constexpr double converged_change = 1.0 / 2048;
 // Ends what cannot converge: surfaces that reflect everything, in a closed room.
 constexpr int most_bounces = 64;
 
-// Live, light has converged after so many frames: nine tenths reflected come to a thousandth.
+// Live, each frame gathers for the faces across one axis, in turn. Light has converged after so many turns of three
+// frames: nine tenths reflected come to a thousandth.
+constexpr int turn_frames = 3;
 constexpr int converging_bounces = 64;
-constexpr int most_live_bounces = converging_bounces + 64;
+constexpr int most_live_frames = turn_frames * (converging_bounces + 64);
 const std::optional<VoxelVolume::Gather> nothing, gather_once = VoxelVolume::Gather{};
 
 /// Bounce `index`: the first `converging` ones forget those before, later ones are averaged with the last of them.
@@ -80,7 +82,7 @@ Result<void> FrameRenderer::update_volume(const Camera& camera, const FrameSampl
                 (gpu_scene_.surface_revision() != voxelized_surfaces_ && settings_.revoxelize != Revoxelize::once) ||
                 (live && settings_.revoxelize == Revoxelize::always);
     relight_ = voxelize_ || !(wanted == volume_key_) || (live && (sample.force_shadows || shadows_lag()));
-    if (relight_) bounces_done_ = 0;
+    if (relight_) bounce_frames_ = 0;
     volume_key_ = wanted;
     return {};
 }
@@ -114,9 +116,11 @@ bool FrameRenderer::emission_or_sky() const {
 
 Result<void> FrameRenderer::record_volume_bounces(gpu::Commands& commands) {
     if (settings_.bounces == 0) {
-        // All bounces: each frame adds one to what the volume holds.
-        if (bounces_done_ >= most_live_bounces) return {};
-        return voxels_.record_bounce(commands, &timestamps_, next_gather(bounces_done_++, converging_bounces));
+        // All bounces: each turn adds one to what the volume holds.
+        if (bounce_frames_ >= most_live_frames) return {};
+        VoxelVolume::Gather gather = next_gather(bounce_frames_++ / turn_frames, converging_bounces);
+        gather.axis = gather_axis_ = (gather_axis_ + 1) % turn_frames;
+        return voxels_.record_bounce(commands, &timestamps_, gather);
     }
     if (!relight_) return {};
     for (int bounce = 0; bounce < settings_.bounces; ++bounce)
@@ -181,9 +185,8 @@ Result<void> FrameRenderer::converge_volume(const FrameSample& sample) {
     const auto bounce = [&](const VoxelVolume::Gather& gather) {
         return run("bounce", [&](gpu::Commands& commands) { return voxels_.record_bounce(commands, nullptr, gather); });
     };
-    for (bounces_done_ = 0; bounces_done_ < limit;) {
+    for (int done_so_far = 0; done_so_far < limit; ++done_so_far) {
         if (auto done = bounce({}); !done) return done;
-        ++bounces_done_;
         auto total = voxels_.total_radiance();
         if (!total) return tl::unexpected(total.error());
         if (std::abs(*total - before) <= converged_change * *total) break;
@@ -193,6 +196,7 @@ Result<void> FrameRenderer::converge_volume(const FrameSample& sample) {
     for (int set = 1; settings_.bounces == 0 && set < still_gather_sets; ++set)
         if (auto done = bounce(next_gather(set, 1)); !done) return done;
     relight_ = false;
+    bounce_frames_ = most_live_frames;
     return {};
 }
 

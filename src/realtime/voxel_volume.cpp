@@ -140,6 +140,7 @@ Result<void> VoxelVolume::make_buffers() {
                                       .and_then([&] { return make(cascade->shown_numbers, "shown numbers", sizeof(shading::VoxelHeader)); })
                                       .and_then([&] { return make(cascade->shown_cells, "shown cells", sizes.cells); })
                                       .and_then([&] { return make(cascade->shown_levels, "shown levels", sizes.levels); })
+                                      .and_then([&] { return make(cascade->lit_faces, "lit faces", passes::lit_faces_bytes(record_capacity_)); })
                                       .and_then([&] { return make(cascade->illuminance, "voxel illuminance", face_bytes); })
                                       .and_then([&] { return make(cascade->gathered, "gathered light", face_bytes); });
         if (!done) return done;
@@ -325,6 +326,7 @@ Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestam
     grid.emission_unit = emission_unit_;
     for (passes::VoxelizeInputs* inputs : {&cascade.still, &cascade.entered, &cascade.moving}) inputs->grid = grid;
     const glm::ivec3 shift = grid.base - cascade.base;
+    const int all_before = work_.all, entered_before = work_.entered;
     const auto keep = [&]() -> Result<void> {
         if (std::exchange(cascade.kept, true)) return {};
         return steps.keep.execute(commands, timestamps);
@@ -343,11 +345,16 @@ Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestam
         ++work_.entered;
     }
     cascade.base = grid.base;
-    if (moving_.empty() && cascade.in_place) return {};
-    if (auto done = keep(); !done) return done;
-    cascade.in_place = moving_.empty();
-    ++work_.moving;
-    return steps.move.execute(commands, timestamps);
+    if (!moving_.empty() || !cascade.in_place) {
+        if (auto done = keep(); !done) return done;
+        if (auto done = steps.move.execute(commands, timestamps); !done) return done;
+        cascade.in_place = moving_.empty();
+        ++work_.moving;
+    } else if (work_.all == all_before && work_.entered == entered_before) {
+        return {};
+    }
+    cascade.gathered_known = false;
+    return steps.list.execute(commands, timestamps);
 }
 
 Result<void> VoxelVolume::show(graph::Executor& step, gpu::Commands& commands, gpu::Timestamps* timestamps) {
@@ -373,8 +380,13 @@ Result<void> VoxelVolume::record_emission(gpu::Commands& commands, gpu::Timestam
 
 Result<void> VoxelVolume::record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps,
                                         const std::optional<Gather>& gather) {
-    if (!gather) return show(steps_->reflect, commands, timestamps);
+    if (!gather) {
+        for (auto& cascade : cascades_) cascade->gathered_known = true;
+        return show(steps_->reflect, commands, timestamps);
+    }
     for (auto& cascade : cascades_) {
+        cascade->gather_faces = gather->axis && cascade->gathered_known ? 3u << 2 * *gather->axis : 63u;
+        cascade->gathered_known = true;
         cascade->constants.gather_shift = gather->shift;
         cascade->constants.gather_weight = gather->weight;
     }

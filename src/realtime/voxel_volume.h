@@ -48,6 +48,7 @@ public:
     struct Gather {
         glm::vec2 shift{0};   ///< of diffuse_cone()
         float weight = 1.0f;  ///< against what was gathered before
+        std::optional<int> axis;  ///< by the faces across it alone, unless a cascade was voxelized since it last gathered
     };
     [[nodiscard]] Result<void> record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps,
                                              const std::optional<Gather>& gather);
@@ -86,11 +87,13 @@ public:
 
 private:
     struct Cascade {
-        gpu::Buffer numbers, cells, records, tiles, levels, illuminance, gathered;
+        gpu::Buffer numbers, cells, records, tiles, levels, lit_faces, illuminance, gathered;
         gpu::Buffer shown_numbers, shown_cells, shown_levels;
         gpu::Buffer still_numbers, still_cells, still_records;  ///< surfaces that never moved: VoxelHeader, …
         shading::InjectConstants constants{};
         passes::VoxelizeInputs still, entered, moving;
+        std::uint32_t gather_faces = 0;  ///< the next gathering is for, a bit each
+        bool gathered_known = false;     ///< each face has gathered since the surfaces were voxelized
         glm::ivec3 base{0};     ///< where the cascade lay when it was voxelized
         bool known = false;     ///< the surfaces that never moved are voxelized, at `base`:
         bool kept = false;      ///< they are in still_numbers, …
@@ -98,8 +101,8 @@ private:
     };
     /// Steps in the life of one cascade's surfaces.
     struct SurfaceSteps {
-        explicit SurfaceSteps(gpu::Device& device) : all(device), keep(device), enter(device), move(device) {}
-        graph::Executor all, keep, enter, move;
+        explicit SurfaceSteps(gpu::Device& device) : all(device), keep(device), enter(device), move(device), list(device) {}
+        graph::Executor all, keep, enter, move, list;
     };
     struct Steps {
         explicit Steps(gpu::Device& device)

@@ -49,6 +49,8 @@ VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
         one.shown = {import(cascade->shown_numbers), import(cascade->shown_cells), import(cascade->shown_levels)};
         one.surfaces = {import(cascade->numbers), import(cascade->cells), import(cascade->records), import(cascade->tiles),
                         import(cascade->levels), data_.size, record_capacity_, tile_capacity_};
+        one.lit_faces = import(cascade->lit_faces);
+        one.gather_faces = &cascade->gather_faces;
         one.illuminance = import(cascade->illuminance);
         one.gathered = import(cascade->gathered);
         one.isotropic = settings_.isotropic;
@@ -65,7 +67,7 @@ Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& v
     volume.graph.export_buffer(volume.images.cubes);
     for (const auto& one : volume.cascades)
         for (const graph::BufferHandle buffer : {one.surfaces.numbers, one.surfaces.cells, one.surfaces.records,
-                                                 one.surfaces.tiles, one.surfaces.levels, one.illuminance, one.gathered,
+                                                 one.surfaces.tiles, one.surfaces.levels, one.lit_faces, one.illuminance, one.gathered,
                                                  one.shown.numbers, one.shown.cells, one.shown.levels})
             volume.graph.export_buffer(buffer);
     for (const passes::CarriedSurfaces& still : volume.still)
@@ -87,6 +89,7 @@ Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& v
         executor.bind(one.shown.numbers, cascade.shown_numbers);
         executor.bind(one.shown.cells, cascade.shown_cells);
         executor.bind(one.shown.levels, cascade.shown_levels);
+        executor.bind(one.lit_faces, cascade.lit_faces);
         executor.bind(one.illuminance, cascade.illuminance);
         executor.bind(one.gathered, cascade.gathered);
         if (volume.still.empty()) continue;
@@ -114,6 +117,9 @@ Result<void> VoxelVolume::build_surface_graphs(const Source& source) {
             return finish_graph(executor, volume, source);
         };
         if (auto done = build(steps.all, cascades_[i]->still, false); !done) return done;
+        VolumeGraph list = begin_graph(source);
+        if (auto done = passes::add_list_faces(list.graph, pipelines_, list.cascades[i]); !done) return done;
+        if (auto done = finish_graph(steps.list, list, source); !done) return done;
         if (!cascades_[i]->still_records) continue;
         VolumeGraph keep = begin_graph(source);
         add_keep_still(keep.graph, keep.cascades[i].surfaces, keep.still[i]);

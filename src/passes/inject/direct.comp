@@ -1,13 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The illuminance of one batch of lights, with their shadows, on every face of every voxel.
+// The illuminance of one batch of lights, with their shadows, on the voxels' faces to one side.
 #include "passes/common/light_visibility.glsl"
 #include "passes/common/hash.glsl"
-#include "passes/inject/record_work.glsl"
+#include "passes/inject/lit_faces.glsl"
 #include "passes/light_grid/light_choice.glsl"
 #include "shading/environment.h"
 #include "shading/light.h"
 
+layout(local_size_x = 64) in;
 layout(set = 0, binding = 19, std430) buffer Illuminance { vec4 illuminance[]; };
 layout(push_constant) uniform Push { InjectConstants push; };
 
@@ -27,9 +28,9 @@ vec3 illuminance_from(LightData light, VoxelFace face) {
 const uint light_picks_a_face = 32u;
 
 /// Of very many lights each face picks some, always the same ones: cones see the mean of many faces.
-vec3 lights_illuminance(VoxelFace face, uint index) {
+vec3 lights_illuminance(VoxelFace face, uint cell) {
     vec3 sum = vec3(0.0f);
-    LightPicks picks = light_picks(face.position, push.light_count, light_picks_a_face, unit_interval(pcg_hash(index)));
+    LightPicks picks = light_picks(face.position, push.light_count, light_picks_a_face, unit_interval(pcg_hash(voxel_faces * cell + push.face)));
     LightPick pick;
     while (next_light(picks, pick))
         sum += pick.weight * illuminance_from(light_table[active_light_table[push.light_first + pick.light]], face);
@@ -37,10 +38,9 @@ vec3 lights_illuminance(VoxelFace face, uint index) {
 }
 
 void main() {
-    const uint index = linear_invocation();
-    if (index >= voxel_header.record_count * voxel_faces) return;
-    const VoxelFace face = voxel_face(push.grid, index / voxel_faces, index % voxel_faces);
-    vec3 sum = push.add != 0u ? illuminance[index].rgb : vec3(0.0f);
-    if (face.area > 0.0f && face.albedo != vec3(0.0f)) sum += lights_illuminance(face, index);
-    illuminance[index] = vec4(sum, 0.0f);
+    uint record;
+    if (!lit_record(push.face, linear_invocation(), record)) return;
+    const uint index = record * voxel_faces + push.face;
+    const vec3 before = push.add != 0u ? illuminance[index].rgb : vec3(0.0f);
+    illuminance[index] = vec4(before + lights_illuminance(voxel_face(push.grid, record, push.face), record_cell[record]), 0.0f);
 }

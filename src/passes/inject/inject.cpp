@@ -12,7 +12,9 @@ using graph::PassKind;
 using graph::Usage;
 
 constexpr VkDeviceSize record_groups = offsetof(shading::VoxelHeader, record_groups);
-constexpr VkDeviceSize face_groups = offsetof(shading::VoxelHeader, face_groups);
+constexpr VkDeviceSize lit_groups = offsetof(shading::LitFacesHeader, groups);
+constexpr VkDeviceSize lit_gather_groups = offsetof(shading::LitFacesHeader, gather_groups);
+constexpr std::uint32_t every_side = (1u << shading::voxel_faces) - 1;
 
 VkDeviceSize level_groups(std::uint32_t level) { return level * sizeof(glm::uvec4); }
 std::uint32_t level_count(std::uint32_t size) { return static_cast<std::uint32_t>(std::bit_width(size)); }
@@ -23,7 +25,52 @@ shading::FilterConstants level_constants(const InjectCascade& cascade, std::uint
             shading::voxel_level_first(level, surfaces.size, surfaces.record_capacity)};
 }
 
+/// One dispatch a side over its list of faces, of the sides in `sides` (a bit each).
+void dispatch_lit_faces(PassContext& context, const gpu::ComputePipeline& pipeline, const InjectCascade& cascade,
+                        const std::vector<gpu::Binding>& bindings, VkDeviceSize groups, std::uint32_t sides) {
+    shading::InjectConstants constants = *cascade.constants;
+    for (constants.face = 0; constants.face < shading::voxel_faces; ++constants.face)
+        if ((sides >> constants.face & 1u) != 0)
+            context.commands.dispatch_indirect(pipeline, constants, bindings, context.buffer(cascade.lit_faces),
+                                               groups + constants.face * sizeof(glm::uvec4));
+}
+
 }  // namespace
+
+VkDeviceSize lit_faces_bytes(std::uint32_t record_capacity) {
+    return sizeof(shading::LitFacesHeader) + VkDeviceSize{record_capacity} * shading::voxel_faces * sizeof(std::uint32_t);
+}
+
+Result<void> add_list_faces(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade) {
+    auto pipeline = pipelines.compute("passes/inject/list_faces.comp");
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    graph.add_pass(
+        "voxelize list clear", PassKind::transfer,
+        [&](PassBuilder& pass) { pass.write(cascade.lit_faces, Usage::transfer_write); },
+        [lit_faces = cascade.lit_faces](PassContext& context) {
+            context.commands.fill(context.buffer(lit_faces), 0, 0, sizeof(shading::LitFacesHeader));
+        });
+    graph.add_pass(
+        "voxelize list", PassKind::compute,
+        [&](PassBuilder& pass) {
+            pass.read(cascade.surfaces.numbers, Usage::storage_read);
+            pass.read(cascade.surfaces.numbers, Usage::indirect);
+            pass.read(cascade.surfaces.cells, Usage::storage_read);
+            pass.read(cascade.surfaces.records, Usage::storage_read);
+            pass.read_write(cascade.illuminance, Usage::storage_read_write);
+            pass.read_write(cascade.gathered, Usage::storage_read_write);
+            pass.read_write(cascade.lit_faces, Usage::storage_read_write);
+        },
+        [cascade, list = *pipeline](PassContext& context) {
+            const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
+            context.commands.dispatch_indirect(*list, gpu::NoPushConstants{},
+                                               {numbers, context.buffer(cascade.surfaces.cells),
+                                                context.buffer(cascade.surfaces.records), context.buffer(cascade.illuminance),
+                                                context.buffer(cascade.gathered), context.buffer(cascade.lit_faces)},
+                                               numbers, record_groups);
+        });
+    return {};
+}
 
 void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade) {
     graph.add_pass(
@@ -91,7 +138,8 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
         "inject lights", PassKind::compute,
         [&](PassBuilder& pass) {
             pass.read(cascade.surfaces.numbers, Usage::storage_read);
-            pass.read(cascade.surfaces.numbers, Usage::indirect);
+            pass.read(cascade.lit_faces, Usage::storage_read);
+            pass.read(cascade.lit_faces, Usage::indirect);
             pass.read(cascade.surfaces.cells, Usage::storage_read);
             pass.read(cascade.surfaces.records, Usage::storage_read);
             pass.read(shadow_maps.depth, Usage::sampled);
@@ -100,21 +148,21 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
             pass.read_write(cascade.illuminance, Usage::storage_read_write);
         },
         [&scene, &lighting, cascade, shadow_maps, direct = *pipeline](PassContext& context) {
-            const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
             const auto bindings = select_bindings(*direct, scene,
                                                   {{9, *lighting.shadow_views},
                                                    {24, *lighting.light_grid},
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
                                                    {15, gpu::Binding(context.image(shadow_maps.slope), lighting.nearest)},
-                                                   {16, numbers},
+                                                   {16, context.buffer(cascade.surfaces.numbers)},
                                                    {17, context.buffer(cascade.surfaces.cells)},
+                                                   {25, context.buffer(cascade.lit_faces)},
                                                    {18, context.buffer(cascade.surfaces.records)},
                                                    {19, context.buffer(cascade.illuminance)},
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},
                                                    {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
                                                    {23, *lighting.volume->cubes}});
-            context.commands.dispatch_indirect(*direct, *cascade.constants, bindings, numbers, face_groups);
+            dispatch_lit_faces(context, *direct, cascade, bindings, lit_groups, every_side);
         });
     return {};
 }
@@ -127,24 +175,25 @@ Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const Sc
         "gather", PassKind::compute,
         [&](PassBuilder& pass) {
             pass.read(cascade.surfaces.numbers, Usage::storage_read);
-            pass.read(cascade.surfaces.numbers, Usage::indirect);
+            pass.read(cascade.lit_faces, Usage::storage_read);
+            pass.read(cascade.lit_faces, Usage::indirect);
             pass.read(cascade.surfaces.cells, Usage::storage_read);
             pass.read(cascade.surfaces.records, Usage::storage_read);
             read_volume(pass, images);
             pass.read_write(cascade.gathered, Usage::storage_read_write);
         },
         [&scene, &volume, cascade, images, gather = *pipeline](PassContext& context) {
-            const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
             const auto bindings = select_bindings(*gather, scene,
-                                                  {{16, numbers},
+                                                  {{16, context.buffer(cascade.surfaces.numbers)},
                                                    {17, context.buffer(cascade.surfaces.cells)},
+                                                   {25, context.buffer(cascade.lit_faces)},
                                                    {18, context.buffer(cascade.surfaces.records)},
                                                    {19, context.buffer(cascade.gathered)},
                                                    {20, gpu::Binding(context.image(images.faces), volume.trilinear)},
                                                    {21, *volume.data},
                                                    {22, gpu::Binding(context.image(images.depths), volume.trilinear)},
                                                    {23, *volume.cubes}});
-            context.commands.dispatch_indirect(*gather, *cascade.constants, bindings, numbers, face_groups);
+            dispatch_lit_faces(context, *gather, cascade, bindings, lit_gather_groups, *cascade.gather_faces);
         });
     return {};
 }

@@ -20,11 +20,16 @@ struct InjectCascade {
     const bool* outdated = nullptr;
     ShownVoxels shown;
     VoxelSurfaces surfaces;
+    graph::BufferHandle lit_faces;    ///< LitFacesHeader and the lists
+    const std::uint32_t* gather_faces = nullptr;  ///< which of the six faces the next gathering is for, a bit each
     graph::BufferHandle illuminance;  ///< of the lights in lux: 16 bytes a record's face
     graph::BufferHandle gathered;     ///< of the volume and the sky, as above
     bool isotropic = false;           ///< a voxel shows one value to all sides
 };
 
+/// Lists the faces that light can leave, once a cascade's surfaces are voxelized: of lit_faces_bytes().
+[[nodiscard]] Result<void> add_list_faces(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade);
+[[nodiscard]] VkDeviceSize lit_faces_bytes(std::uint32_t record_capacity);
 /// Keeps the lists of the voxels that the texture shows, unless they are kept already.
 void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade);
 /// If the texture is outdated, empties what it shows of a cascade; `levels`: its coarse levels too.
@@ -35,7 +40,7 @@ void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade);
 [[nodiscard]] Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                             const LightingInputs& lighting, const InjectCascade& cascade,
                                             const ShadowMaps& shadow_maps, const VolumeImages& images);
-/// Replaces `gathered` by what arrives from the volume and the sky.
+/// Replaces `gathered` of the faces asked for by what arrives from the volume and the sky.
 [[nodiscard]] Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                       const VolumeInputs& volume, const InjectCascade& cascade, const VolumeImages& images);
 /// Writes level 0: emission, and unless `emission_only` what both illuminances reflect.

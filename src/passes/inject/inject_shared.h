@@ -12,8 +12,16 @@ struct InjectConstants {
     uint add;  // 1: further lights, added to those before
     vec2 gather_shift;   // of diffuse_cone()
     float gather_weight; // of what is gathered now against what was before
-    float padding;
+    uint face;           // which of the six faces of the listed records, where a pass takes one of them
 };
+
+/// First words of the lists of faces that light can leave: of each of the six faces, VkDispatchIndirectCommand, and
+/// in w how many records are listed. The lists follow, room for VoxelHeader.record_count in each.
+struct LitFacesHeader {
+    uvec4 groups[6];         // of 64 invocations, one a face
+    uvec4 gather_groups[6];  // of gather_faces_a_group faces
+};
+SHADING_CONST uint gather_faces_a_group = 32u;
 
 /// Work on the occupied voxels of one level of the last cascade.
 struct FilterConstants {

@@ -1,4 +1,4 @@
-// One invocation a record, or a record's face, of a cascade.
+// One invocation a record of a cascade.
 #ifndef HELIODON_RECORD_WORK_GLSL
 #define HELIODON_RECORD_WORK_GLSL
 #include "passes/inject/inject_shared.h"
