@@ -169,6 +169,26 @@ TEST_F(Commands, CompareHasOneKeyAMetricAndWritesAHeatMap) {
     EXPECT_EQ(read_picture(folder() / "h.png")->image.width, 32);
 }
 
+TEST_F(Commands, CompareShowsWhereTheTestIsDarkerAndWhereBrighter) {
+    Picture reference, test;
+    reference.image = Image(16, 16, 3, 0.5f);
+    test.image = reference.image;
+    for (int c = 0; c < 3; ++c) {
+        test.image.at(0, 0, c) = 0;
+        test.image.at(1, 0, c) = 1;
+    }
+    ASSERT_TRUE(write_picture(folder() / "r.exr", reference));
+    ASSERT_TRUE(write_picture(folder() / "t.exr", test));
+    ASSERT_EQ(run({"compare", "r.exr", "t.exr", "--difference", "d.png"}).code, 0);
+    ASSERT_EQ(run({"compare", "r.exr", "t.exr", "--difference", "d.exr"}).code, 0);
+    const auto shown = read_picture(folder() / "d.png"), values = read_picture(folder() / "d.exr");
+    ASSERT_TRUE(shown && values);
+    EXPECT_GT(shown->image.at(0, 0, 2), shown->image.at(0, 0, 0)) << "darker: blue";
+    EXPECT_GT(shown->image.at(1, 0, 0), shown->image.at(1, 0, 2)) << "brighter: red";
+    EXPECT_FLOAT_EQ(shown->image.at(2, 0, 1), 1) << "equal: white";
+    EXPECT_FLOAT_EQ(values->image.at(0, 0, 1), -0.5f);
+}
+
 TEST_F(Commands, CompareTakesTheStoredExposureUnlessOneIsGiven) {
     Picture reference, test;
     reference.ev100 = std::log2(10.0f / 1.2f);
