@@ -4,59 +4,62 @@
 
 const int most_corners = 9;  // a triangle cut by six planes
 
-struct Polygon {
-    vec3 corners[most_corners];
-    int count;
-};
-
-/// What is left where `side` · corner[axis] ≤ side · plane.
-Polygon clip_half_space(Polygon polygon, int axis, float plane, float side) {
-    Polygon kept;
-    kept.count = 0;
-    vec3 a = polygon.corners[polygon.count - 1];
-    float outside_a = side * (a[axis] - plane);
-    for (int i = 0; i < polygon.count; ++i) {
-        const vec3 b = polygon.corners[i];
-        const float outside_b = side * (b[axis] - plane);
-        if (outside_a * outside_b < 0.0f && kept.count < most_corners) {
-            vec3 cut = mix(a, b, outside_a / (outside_a - outside_b));
-            cut[axis] = plane;
-            kept.corners[kept.count++] = cut;
-        }
-        if (outside_b <= 0.0f && kept.count < most_corners) kept.corners[kept.count++] = b;
-        a = b;
-        outside_a = outside_b;
-    }
-    return kept;
+/// Area and moment of a fan's triangle.
+vec4 moment_and_area(vec3 a, vec3 b, vec3 c) {
+    const float part = 0.5f * length(cross(b - a, c - a));
+    return vec4(part * (a + b + c) * (1.0f / 3.0f), part);
 }
 
 /// xyz: centroid of the triangle's part in the voxel at `voxel`, relative to the voxel's low corner; w: its area.
 vec4 centroid_and_area(vec3 p0, vec3 p1, vec3 p2, vec3 voxel) {
-    Polygon polygon;
-    polygon.corners[0] = p0 - voxel;
-    polygon.corners[1] = p1 - voxel;
-    polygon.corners[2] = p2 - voxel;
-    polygon.count = 3;
-    const vec3 low = min(polygon.corners[0], min(polygon.corners[1], polygon.corners[2]));
-    const vec3 high = max(polygon.corners[0], max(polygon.corners[1], polygon.corners[2]));
+    const vec3 a = p0 - voxel;
+    const vec3 b = p1 - voxel;
+    const vec3 c = p2 - voxel;
+    const vec3 low = min(a, min(b, c));
+    const vec3 high = max(a, max(b, c));
     // A bit a plane that the triangle crosses: low x y z, high x y z.
     uint planes = 0u;
     for (uint axis = 0u; axis < 3u; ++axis)
         planes |= uint(low[axis] < 0.0f) << axis | uint(high[axis] > 1.0f) << (axis + 3u);
-    while (planes != 0u && polygon.count > 0) {
-        const int plane = findLSB(planes);
-        planes &= planes - 1u;
-        polygon = clip_half_space(polygon, plane % 3, plane < 3 ? 0.0f : 1.0f, plane < 3 ? -1.0f : 1.0f);
+    vec4 sum = vec4(0.0f);
+    if (planes == 0u) {
+        sum = moment_and_area(a, b, c);
+    } else {
+        // Two polygons, the one before a cut and the one after it by turns.
+        vec3 corners[2 * most_corners];
+        corners[0] = a;
+        corners[1] = b;
+        corners[2] = c;
+        int first = 0;
+        int count = 3;
+        while (planes != 0u && count > 0) {
+            const int plane = findLSB(planes);
+            planes &= planes - 1u;
+            const int axis = plane % 3;
+            const float at = plane < 3 ? 0.0f : 1.0f;
+            const float side = plane < 3 ? -1.0f : 1.0f;  // kept: side · corner[axis] ≤ side · at
+            const int kept_first = most_corners - first;
+            int kept = 0;
+            vec3 from = corners[first + count - 1];
+            float from_outside = side * (from[axis] - at);
+            for (int i = 0; i < count; ++i) {
+                const vec3 to = corners[first + i];
+                const float to_outside = side * (to[axis] - at);
+                if (from_outside * to_outside < 0.0f && kept < most_corners) {
+                    vec3 cut = mix(from, to, from_outside / (from_outside - to_outside));
+                    cut[axis] = at;
+                    corners[kept_first + kept++] = cut;
+                }
+                if (to_outside <= 0.0f && kept < most_corners) corners[kept_first + kept++] = to;
+                from = to;
+                from_outside = to_outside;
+            }
+            first = kept_first;
+            count = kept;
+        }
+        for (int i = 2; i < count; ++i) sum += moment_and_area(corners[first], corners[first + i - 1], corners[first + i]);
     }
-    vec3 moment = vec3(0.0f);
-    float area = 0.0f;
-    for (int i = 2; i < polygon.count; ++i) {
-        const vec3 a = polygon.corners[0];
-        const float part = 0.5f * length(cross(polygon.corners[i - 1] - a, polygon.corners[i] - a));
-        moment += part * (a + polygon.corners[i - 1] + polygon.corners[i]) * (1.0f / 3.0f);
-        area += part;
-    }
-    return vec4(area > 0.0f ? moment / area : vec3(0.5f), area);
+    return vec4(sum.w > 0.0f ? sum.xyz / sum.w : vec3(0.5f), sum.w);
 }
 
 #endif

@@ -1,39 +1,47 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Clears the records or fills those that are carried from others, and lists on every coarser level the voxels that
-// hold anything.
+// hold anything. A workgroup takes 64 records.
 #include "passes/voxelize/linear_groups.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 16, std430) readonly buffer Numbers { VoxelHeader header; };
 layout(set = 0, binding = 17, std430) readonly buffer Cells { uint record_cell[]; };
-layout(set = 0, binding = 18, std430) writeonly buffer Records { uint records[]; };
+layout(set = 0, binding = 18, std430) writeonly buffer Records { uvec4 records[]; };
 layout(set = 0, binding = 20, std430) buffer Levels { VoxelLevelsHeader levels; uint level_voxel[]; };
 layout(set = 0, binding = 21, std430) buffer Listed { uint listed[]; };  // a bit a coarse voxel, level after level
 layout(set = 0, binding = 22, std430) readonly buffer Sources { uint source[]; };  // by record: 0, or 1 + the carried one
-layout(set = 0, binding = 23, std430) readonly buffer Carried { uint carried_records[]; };
+layout(set = 0, binding = 23, std430) readonly buffer Carried { uvec4 carried_records[]; };
 layout(constant_id = 0) const bool carries = false;
 layout(push_constant) uniform Push { VoxelizeConstants push; };
 
-void append(uint level, uint voxel) {
-    const uint place = atomicAdd(levels.groups[level].w, 1u);
-    level_voxel[voxel_level_first(level, push.grid.size, push.record_capacity) + place] = voxel;
-    if (place % 64u != 0u) return;
-    const uvec4 groups = spread_groups(place / 64u + 1u);
+const uint quads = voxel_faces * voxel_field_count / 4u;  // of words in a record
+
+shared uint new_count;
+shared uint first_place;
+
+/// Counts `count` more voxels of a level; returns the first's place in its list.
+uint lengthen(uint level, uint count) {
+    const uint place = atomicAdd(levels.groups[level].w, count);
+    if ((place + 63u) / 64u == (place + count + 63u) / 64u) return place;
+    const uvec4 groups = spread_groups((place + count + 63u) / 64u);
     atomicMax(levels.groups[level].x, groups.x);
     atomicMax(levels.groups[level].y, groups.y);
     levels.groups[level].z = 1u;
+    return place;
 }
 
 void main() {
-    const uint invocation = linear_invocation();
-    if (invocation >= header.record_count * voxel_faces) return;
-    const uint from = carries ? source[invocation / voxel_faces] : 0u;
-    const uint first = ((from - 1u) * voxel_faces + invocation % voxel_faces) * voxel_field_count;
-    for (uint i = 0u; i < voxel_field_count; ++i)
-        records[invocation * voxel_field_count + i] = from != 0u ? carried_records[first + i] : 0u;
-    if (invocation % voxel_faces != 0u) return;
-    const uint cell = record_cell[invocation / voxel_faces];
+    const uint own = gl_LocalInvocationID.x;
+    const uint first_record = linear_group() * 64u;
+    if (first_record >= header.record_count) return;
+    const uint record_count = min(header.record_count - first_record, 64u);
+    for (uint i = own; i < record_count * quads; i += 64u) {
+        const uint from = carries ? source[first_record + i / quads] : 0u;
+        records[first_record * quads + i] = from != 0u ? carried_records[(from - 1u) * quads + i % quads] : uvec4(0u);
+    }
+    bool climbs = own < record_count;
+    const uint cell = climbs ? record_cell[first_record + own] : 0u;
     uvec3 voxel = uvec3(cell % push.grid.size, cell / push.grid.size % push.grid.size, cell / (push.grid.size * push.grid.size));
     uint first_word = 0u;
     uint level = 1u;
@@ -42,8 +50,16 @@ void main() {
         const uint place = voxel.x + size * (voxel.y + size * voxel.z);
         const uint bit = 1u << (place % 32u);
         // Whoever comes first lists the levels above, too.
-        if ((atomicOr(listed[first_word + place / 32u], bit) & bit) != 0u) return;
-        append(level++, place);
+        climbs = climbs && (atomicOr(listed[first_word + place / 32u], bit) & bit) == 0u;
+        if (own == 0u) new_count = 0u;
+        barrier();
+        const uint rank = climbs ? atomicAdd(new_count, 1u) : 0u;
+        barrier();
+        if (new_count == 0u) return;
+        if (own == 0u) first_place = lengthen(level, new_count);
+        barrier();
+        if (climbs) level_voxel[voxel_level_first(level, push.grid.size, push.record_capacity) + first_place + rank] = place;
         first_word += voxel_bit_words(size);
+        ++level;
     }
 }

@@ -9,6 +9,7 @@ void main() {
     if (!column_of_fragment(triangle)) return;
     ivec3 voxel = triangle.low;
     do {
-        if (near_plane(triangle, voxel)) mark(triangle, voxel);
+        if (near_plane(triangle, voxel) && is_first(triangle, voxel))
+            number_voxel(voxel_place(voxel), atomicAdd(header.record_demand, 1u));
     } while (next_voxel(triangle, voxel));
 }

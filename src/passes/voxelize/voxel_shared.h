@@ -69,6 +69,23 @@ struct VoxelTile {
 };
 SHADING_CONST uint voxel_tile_edge = 8u;
 
+/// A material as voxels know it. Shares are of the surface's area.
+struct VoxelSurface {
+    vec3 albedo;    // share of arriving light that is reflected
+    float cover;    // that stops light
+    vec3 emission;  // in units of the grid's
+    float opacity;  // there at all
+    uint flags;     // voxel_surface_…
+    uint padding0;
+    uint padding1;
+    uint padding2;
+};
+SHADING_CONST uint voxel_surface_varies = 1u;  // from place to place: each piece of a triangle has its own
+SHADING_CONST uint voxel_surface_two_sided = 2u;
+SHADING_CONST uint voxel_surface_closed = 4u;  // of a mesh that encloses volumes
+/// Instances before this one have their surface evaluated once if it does not vary, later ones at each piece.
+SHADING_CONST uint most_even_surfaces = 16384u;
+
 SHADING_CONST uint small_triangle_voxels = 8u;  // a triangle whose box has more is split into tiles
 
 /// Dispatches of more workgroups than every device takes along x are spread over rows of so many; shaders then

@@ -1,109 +1,52 @@
-// Adds what a voxel holds of a triangle to the voxel's record.
+// Adds what a voxel holds of a triangle to the voxel's record. The includer defines, before this,
+//   uint face_sums(uint face)  place of the first sum of a face, numbered through all records
+//   void add_to_sum(uint place, uint amount)
 #ifndef HELIODON_VOXEL_SUM_GLSL
 #define HELIODON_VOXEL_SUM_GLSL
 #include "passes/common/hash.glsl"
-#include "passes/common/surface.glsl"
 #include "passes/voxelize/clip.glsl"
-#include "passes/voxelize/voxel_triangle.glsl"
+#include "passes/voxelize/voxel_surface.glsl"
 
-layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
-layout(set = 0, binding = 16, std430) readonly buffer Numbers { VoxelHeader header; uint voxel_number[]; };
-layout(set = 0, binding = 18, std430) buffer Records { uint records[]; };
-float shading_table(uint index) { return shading_tables[index]; }
-
-/// A material as voxels know it. Shares are of the surface's area.
-struct VoxelSurface {
-    float cover;    // that stops light
-    vec3 albedo;    // share of arriving light that is reflected
-    vec3 emission;  // in units of the grid's
-    float opacity;  // there at all
-};
-
-/// At a point of the voxel. Differences first: they are exact, wherever the grid lies.
-TriangleHit hit_at(VoxelTriangle triangle, ivec3 voxel, vec3 within) {
-    TriangleHit hit;
-    hit.index = triangle.index;
-    hit.p0 = triangle.p0;
-    hit.edge1 = triangle.p1 - triangle.p0;
-    hit.edge2 = triangle.p2 - triangle.p0;
-    hit.normal = cross(hit.edge1, hit.edge2);
-    hit.t = 0.0f;
-    const vec3 from = (vec3(voxel) - triangle.p0) + within;
-    const float inverse = 1.0f / dot(hit.normal, hit.normal);
-    const float u = clamp(dot(cross(from, hit.edge2), hit.normal) * inverse, 0.0f, 1.0f);
-    const float v = clamp(dot(cross(hit.edge1, from), hit.normal) * inverse, 0.0f, 1.0f - u);
-    hit.barycentric = vec3(1.0f - u - v, u, v);
-    return hit;
-}
-
-/// Textures are filtered over a voxel.
-void set_voxel_gradients(GeometryData geometry, TextureRef use, TriangleHit hit) {
-    texture_gradient_x = vec2(0.0f);
-    texture_gradient_y = vec2(0.0f);
-    vec3 dp_du;
-    vec3 dp_dv;
-    if (use.texture_index == no_texture ||
-        !triangle_derivatives(hit.p0, hit.p0 + hit.edge1, hit.p0 + hit.edge2, fetch_texcoord(geometry, use.texcoord, hit.index.x),
-                              fetch_texcoord(geometry, use.texcoord, hit.index.y),
-                              fetch_texcoord(geometry, use.texcoord, hit.index.z), dp_du, dp_dv))
-        return;
-    const mat2 uv_matrix = mat2(use.uv_matrix.xy, use.uv_matrix.zw);
-    texture_gradient_x = uv_matrix * vec2(1.0f / max(length(dp_du), 1.0e-20f), 0.0f);
-    texture_gradient_y = uv_matrix * vec2(0.0f, 1.0f / max(length(dp_dv), 1.0e-20f));
-}
-
-VoxelSurface surface_at(VoxelTriangle triangle, GeometryData geometry, MaterialData material, ivec3 voxel, vec3 within) {
-    const TriangleHit hit = hit_at(triangle, voxel, within);
-    set_voxel_gradients(geometry, footprint_texture(material), hit);
-    const MaterialPoint point = material_at(material, interpolate_texcoord(geometry, 0u, hit), interpolate_texcoord(geometry, 1u, hit),
-                                            vertex_color_at(geometry, hit), false);
-    // Voxels reflect diffusely what the surface reflects at the mean cosine of a diffuse field,
-    // ∫cos² / ∫cos = 2/3.
-    const vec3 wo = vec3(sqrt(5.0f) / 3.0f, 0.0f, 2.0f / 3.0f);
-    const BsdfLobes lobes = bsdf_prepare(point.surface, wo);
-    VoxelSurface result;
-    result.opacity = point.opacity;
-    const vec3 through = point.surface.model == material_model_standard ? bsdf_transmission_albedo_prepared(point.surface, lobes) : vec3(0.0f);
-    result.cover = point.opacity * (1.0f - (through.x + through.y + through.z) * (1.0f / 3.0f));
-    result.albedo = point.opacity * (bsdf_diffuse_albedo_prepared(point.surface, lobes) +
-                                     bsdf_specular_albedo_prepared(point.surface, lobes) + bsdf_coat_albedo_prepared(lobes));
-    result.emission = push.grid.emission_unit > 0.0f ? point.opacity * point.emission / push.grid.emission_unit : vec3(0.0f);
-    return result;
-}
+layout(set = 0, binding = 13, std430) readonly buffer Surfaces { VoxelSurface even_surfaces[]; };  // by instance
 
 void add(uint place, float value, float rounding) {
     const int amount = int(floor(clamp(value, -2047.0f, 2047.0f) * voxel_fixed_one + rounding));
-    if (amount != 0) atomicAdd(records[place], uint(amount));
+    if (amount != 0) add_to_sum(place, uint(amount));
 }
 
-/// One side's share of the record's face; a black one has no colour.
-void add_to_face(uint first, VoxelSurface surface, bool black, vec3 normal, vec3 position, float area, float rounding) {
+/// One side's share of the record's face; a black one has no colour. Neighbouring invocations often add to the same face:
+/// each begins with another of its fields, by `turn`, so that they do not wait for each other.
+void add_to_face(uint face, VoxelSurface surface, bool black, vec3 normal, vec3 position, float area, uint turn, float rounding) {
     const float shown = area * surface.cover;
-    add(first + voxel_field_area, shown, rounding);
-    for (uint c = 0u; c < 3u; ++c) {
-        add(first + voxel_field_normal + c, shown * normal[c], rounding);
-        add(first + voxel_field_position + c, shown * clamp(position[c], 0.0f, 1.0f), rounding);
-        if (!black && surface.albedo[c] > 0.0f) add(first + voxel_field_albedo + c, area * surface.albedo[c], rounding);
-        if (!black && surface.emission[c] > 0.0f) add(first + voxel_field_emission + c, area * surface.emission[c], rounding);
+    const uint place = face_sums(face);
+    add(place + voxel_field_area, shown, rounding);
+    uint group = turn / 3u % 3u;
+    for (uint i = 0u; i < 3u; ++i) {
+        const vec3 sums = group == 0u ? area * surface.albedo : shown * (group == 1u ? normal : clamp(position, 0.0f, 1.0f));
+        const uint field = group == 0u ? voxel_field_albedo : group == 1u ? voxel_field_normal : voxel_field_position;
+        uint axis = turn % 3u;
+        for (uint j = 0u; j < 3u && !(black && group == 0u); ++j) {
+            add(place + field + axis, axis == 0u ? sums.x : axis == 1u ? sums.y : sums.z, rounding);
+            axis = axis == 2u ? 0u : axis + 1u;
+        }
+        group = group == 2u ? 0u : group + 1u;
     }
-    if (!black && any(greaterThan(surface.emission, vec3(0.0f))))
-        add(first + voxel_field_emissive_area, area * surface.opacity, rounding);
+    if (black || !any(greaterThan(surface.emission, vec3(0.0f)))) return;
+    for (uint c = 0u; c < 3u; ++c) add(place + voxel_field_emission + c, area * surface.emission[c], rounding);
+    add(place + voxel_field_emissive_area, area * surface.opacity, rounding);
 }
 
-void sum(VoxelTriangle triangle, ivec3 voxel) {
-    const uint size = push.grid.size;
-    const uint place = uint(voxel.x) + size * (uint(voxel.y) + size * uint(voxel.z));
-    const uint number = voxel_number[place];
-    if (number == 0u || number == voxel_without_room) return;
+/// `record`: the voxel's; `turn`: as in add_to_face().
+void sum(VoxelTriangle triangle, ivec3 voxel, uint record, uint turn) {
     const vec4 part = centroid_and_area(triangle.p0, triangle.p1, triangle.p2, vec3(voxel));
     if (!(part.w > 0.0f)) return;
-    const InstanceData instance = instance_table[triangle.instance];
-    const GeometryData geometry = geometry_table[instance.geometry];
-    const MaterialData material = material_table[instance.material];
-    const VoxelSurface surface = surface_at(triangle, geometry, material, voxel, part.xyz);
+    VoxelSurface surface;
+    surface.flags = voxel_surface_varies;
+    if (triangle.instance < most_even_surfaces) surface = even_surfaces[triangle.instance];
+    if ((surface.flags & voxel_surface_varies) != 0u) surface = surface_at(triangle, voxel, part.xyz);
     if (!(surface.opacity > 0.0f)) return;
-    const bool two_sided = (material.flags & material_flag_two_sided) != 0u;
-    const bool closed = (geometry.format & geometry_format_closed) != 0u;
+    const bool two_sided = (surface.flags & voxel_surface_two_sided) != 0u;
+    const bool closed = (surface.flags & voxel_surface_closed) != 0u;
     // Up or down at random, by what is rounded alone: pieces smaller than the fixed point's step count on average,
     // and every run gives the same sums.
     const uvec3 in_lattice = uvec3(voxel + push.grid.base);
@@ -121,8 +64,8 @@ void sum(VoxelTriangle triangle, ivec3 voxel) {
         faces &= faces - 1u;
         const float along = triangle.normal[face >> 1u];
         const bool rear = (along > 0.0f) == ((face & 1u) != 0u);
-        add_to_face(((number - 1u) * voxel_faces + face) * voxel_field_count, surface, rear && !two_sided,
-                    rear ? -triangle.normal : triangle.normal, part.xyz, part.w * abs(along), rounding);
+        add_to_face(record * voxel_faces + face, surface, rear && !two_sided, rear ? -triangle.normal : triangle.normal, part.xyz,
+                    part.w * abs(along), turn, rounding);
     }
 }
 

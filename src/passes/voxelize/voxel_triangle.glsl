@@ -9,7 +9,6 @@ layout(push_constant) uniform Push { VoxelizeConstants push; };
 struct VoxelTriangle {
     uint instance;
     uint primitive;
-    uvec3 index;
     vec3 p0;
     vec3 p1;
     vec3 p2;
@@ -52,16 +51,23 @@ bool triangle_in_grid(vec3 p0, vec3 p1, vec3 p2, float determinant_sign, inout V
     return true;
 }
 
+uvec3 triangle_index(GeometryData geometry, uint primitive) {
+    const uint first = geometry.first_index + 3u * primitive;
+    return uvec3(index_table[first], index_table[first + 1u], index_table[first + 2u]);
+}
+
 bool load_triangle(uint instance_index, uint primitive, out VoxelTriangle triangle) {
     const InstanceData instance = instance_table[instance_index];
     const GeometryData geometry = geometry_table[instance.geometry];
-    const uint first = geometry.first_index + 3u * primitive;
+    const uvec3 index = triangle_index(geometry, primitive);
     triangle.instance = instance_index;
     triangle.primitive = primitive;
-    triangle.index = uvec3(index_table[first], index_table[first + 1u], index_table[first + 2u]);
-    return triangle_in_grid(grid_position(instance, geometry, triangle.index.x), grid_position(instance, geometry, triangle.index.y),
-                            grid_position(instance, geometry, triangle.index.z), instance.determinant_sign, triangle);
+    return triangle_in_grid(grid_position(instance, geometry, index.x), grid_position(instance, geometry, index.y),
+                            grid_position(instance, geometry, index.z), instance.determinant_sign, triangle);
 }
+
+/// Where the voxel stands in voxel_number[].
+uint voxel_place(ivec3 voxel) { return uint(voxel.x) + push.grid.size * (uint(voxel.y) + push.grid.size * uint(voxel.z)); }
 
 /// The axis along which the triangle is seen largest.
 int dominant_axis(vec3 normal) {

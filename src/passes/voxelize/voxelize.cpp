@@ -36,7 +36,7 @@ struct Voxelization {
     const SceneInputs& scene;
     const VoxelizeInputs& inputs;
     VoxelSurfaces surfaces;
-    graph::BufferHandle listed, tile_arguments, sources;
+    graph::BufferHandle listed, tile_arguments, sources, even_surfaces;
 
     [[nodiscard]] VoxelizeConstants constants(bool over_tiles) const {
         return {inputs.grid,           inputs.range_count, inputs.triangle_count, surfaces.record_capacity,
@@ -50,19 +50,25 @@ struct Voxelization {
         for (const auto& [binding, handle] : buffers) own.emplace_back(binding, context.buffer(handle));
         return select_bindings(pipeline, scene, own);
     }
-    /// A compute pass over `shader`: `indirect` arguments, or all triangles in groups of 64 where there are none.
+    /// A compute pass over `shader`: `indirect` arguments, or what it is over in groups of 64 where there are none.
     struct Step {
         const char* name;
         const char* shader;
         bool over_tiles = false;
         graph::BufferHandle indirect{};
         VkDeviceSize indirect_offset = 0;
-        bool once = false;  ///< a single workgroup
+        enum class Over { triangles, ranges, nothing } over = Over::triangles;  ///< nothing: a single workgroup
         NumberedBuffers buffers;
         gpu::Specialization constants{};
     };
     Result<void> add(const Step& step, const std::function<void(PassBuilder&)>& setup) const;
 };
+
+glm::uvec3 groups_over(Voxelization::Step::Over over, const VoxelizeConstants& push) {
+    if (over == Voxelization::Step::Over::nothing) return glm::uvec3(1);
+    const std::uint32_t threads = over == Voxelization::Step::Over::ranges ? push.range_count : push.triangle_count;
+    return spread((threads + threads_a_group - 1) / threads_a_group);
+}
 
 Result<void> Voxelization::add(const Step& step, const std::function<void(PassBuilder&)>& setup) const {
     auto pipeline = pipelines.compute(step.shader, step.constants);
@@ -79,9 +85,7 @@ Result<void> Voxelization::add(const Step& step, const std::function<void(PassBu
             if (step.indirect)
                 context.commands.dispatch_indirect(*pipeline, push, bindings, context.buffer(step.indirect), step.indirect_offset);
             else
-                context.commands.dispatch(*pipeline, push, bindings,
-                                          step.once ? glm::uvec3(1)
-                                                    : spread((push.triangle_count + threads_a_group - 1) / threads_a_group));
+                context.commands.dispatch(*pipeline, push, bindings, groups_over(step.over, push));
         });
     return {};
 }
@@ -104,6 +108,12 @@ void add_clear(const Voxelization& self) {
         });
 }
 
+Result<void> add_surfaces(const Voxelization& self) {
+    return self.add({.name = "voxelize surfaces", .shader = "passes/voxelize/surfaces.comp", .over = Voxelization::Step::Over::ranges,
+                     .buffers = {{13, self.even_surfaces}}},
+                    [&](PassBuilder& pass) { pass.write(self.even_surfaces, Usage::storage_write); });
+}
+
 Result<void> add_carry(const Voxelization& self) {
     const VoxelSurfaces& s = self.surfaces;
     return self.add({.name = "voxelize carry", .shader = "passes/voxelize/carry.comp", .indirect = s.carried.numbers,
@@ -119,7 +129,7 @@ Result<void> add_carry(const Voxelization& self) {
 }
 
 Result<void> add_arguments(const Voxelization& self, const char* name) {
-    return self.add({.name = name, .shader = "passes/voxelize/arguments.comp", .once = true,
+    return self.add({.name = name, .shader = "passes/voxelize/arguments.comp", .over = Voxelization::Step::Over::nothing,
                      .buffers = {{16, self.surfaces.numbers}, {20, self.tile_arguments}}},
                     [&](PassBuilder& pass) {
                         pass.read_write(self.surfaces.numbers, Usage::storage_read_write);
@@ -155,7 +165,7 @@ Result<void> add_prepare(const Voxelization& self) {
     const bool carries = bool(s.carried.records);
     // Without anything to carry nothing reads the last two.
     return self.add({.name = "voxelize prepare", .shader = "passes/voxelize/prepare.comp", .indirect = s.numbers,
-                     .indirect_offset = offsetof(shading::VoxelHeader, face_groups),
+                     .indirect_offset = offsetof(shading::VoxelHeader, record_groups),
                      .buffers = {{16, s.numbers}, {17, s.cells}, {18, s.records}, {20, s.levels}, {21, self.listed},
                                  {22, carries ? self.sources : s.cells}, {23, carries ? s.carried.records : s.cells}},
                      .constants = {{0, carries ? 1u : 0u}}},
@@ -174,8 +184,9 @@ Result<void> add_prepare(const Voxelization& self) {
 Result<void> add_sum(const Voxelization& self) {
     const VoxelSurfaces& s = self.surfaces;
     Voxelization::Step step{.name = "voxelize sum", .shader = "passes/voxelize/sum.comp",
-                            .buffers = {{16, s.numbers}, {18, s.records}, {19, s.tiles}}};
+                            .buffers = {{13, self.even_surfaces}, {16, s.numbers}, {18, s.records}, {19, s.tiles}}};
     const auto uses = [&](PassBuilder& pass) {
+        pass.read(self.even_surfaces, Usage::storage_read);
         pass.read(s.numbers, Usage::storage_read);
         pass.read(s.tiles, Usage::storage_read);
         pass.read_write(s.records, Usage::storage_read_write);
@@ -232,11 +243,13 @@ Result<void> add_raster(const Voxelization& self, const char* name, const char* 
 /// The buffers that no one else sees, the clearing of all that counts, and what is carried.
 Result<Voxelization> begin(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VoxelizeInputs& inputs,
                            const VoxelSurfaces& surfaces) {
-    Voxelization self{graph, pipelines, scene, inputs, surfaces, {}, {}, {}};
+    Voxelization self{graph, pipelines, scene, inputs, surfaces, {}, {}, {}, {}};
     self.listed = graph.create_buffer({"listed coarse voxels", listed_words(surfaces.size) * word_bytes});
     self.tile_arguments = graph.create_buffer({"voxel tile arguments", sizeof(glm::uvec4)});
+    self.even_surfaces = graph.create_buffer({"surfaces of voxels", shading::most_even_surfaces * sizeof(shading::VoxelSurface)});
     if (surfaces.carried.records) self.sources = graph.create_buffer({"sources of voxels", surfaces.record_capacity * word_bytes});
     add_clear(self);
+    if (auto done = add_surfaces(self); !done) return tl::unexpected(done.error());
     if (surfaces.carried.records)
         if (auto done = add_carry(self); !done) return tl::unexpected(done.error());
     return self;
@@ -279,7 +292,8 @@ Result<void> add_voxelize_raster(graph::Graph& graph, gpu::Pipelines& pipelines,
     if (done = add_arguments(self, "voxelize arguments"); !done) return done;
     if (done = add_prepare(self); !done) return done;
     return add_raster(self, "voxelize sum raster", "passes/voxelize/raster_sum.frag",
-                      {{16, surfaces.numbers}, {18, surfaces.records}}, [&](PassBuilder& pass) {
+                      {{13, self.even_surfaces}, {16, surfaces.numbers}, {18, surfaces.records}}, [&](PassBuilder& pass) {
+                          pass.read(self.even_surfaces, Usage::storage_read);
                           pass.read(surfaces.numbers, Usage::storage_read);
                           pass.read_write(surfaces.records, Usage::storage_read_write);
                       });
