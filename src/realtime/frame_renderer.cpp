@@ -189,7 +189,7 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
     if (lighting_.cone_shadows != has_cone_shadows_) voxels_.forget_passes();
     lighting_.cone_shadows = has_cone_shadows_;
     wanted_.cone_traced = sample.cone_traced;
-    wanted_.half_resolution = sample.cone_traced && settings_.vct.half_resolution;
+    wanted_.cone_spacing = sample.cone_traced ? 1u << static_cast<unsigned>(settings_.vct.resolution) : 1u;
     wanted_.volume = key_.volume;
     if (auto done = choose_rasterizer(); !done) return done;
     if (!(wanted_ == key_)) {
@@ -282,25 +282,27 @@ Result<void> FrameRenderer::build_frame_graph() {
     graph.export_image(sum);
     const passes::VolumeImages volume{graph.import_image(voxels_.inputs().faces->description()),
                                       graph.import_image(voxels_.inputs().depths->description()),
-                                      graph.import_buffer(voxels_.inputs().cubes->description())};
+                                      graph.import_buffer(voxels_.inputs().occupancy->description())};
     passes::DrawLists lists;
     auto visibility = add_visibility(graph, extent, lists);
     if (!visibility) return tl::unexpected(visibility.error());
-    auto picture = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, volume, extent, wanted_.aov);
-    if (!picture) return tl::unexpected(picture.error());
+    auto shaded = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, volume, extent,
+                                    {wanted_.aov, wanted_.cone_traced});
+    if (!shaded) return tl::unexpected(shaded.error());
+    const graph::ImageHandle picture = shaded->picture;
     if (wanted_.cone_traced) {
-        if (auto done = passes::add_cone_trace(graph, pipelines_, inputs_, lighting_, voxels_.inputs(), volume, *visibility,
-                                               *picture, extent, {wanted_.aov, wanted_.half_resolution}); !done)
+        if (auto done = passes::add_cone_trace(graph, pipelines_, inputs_, lighting_, voxels_.inputs(), volume, *shaded,
+                                               extent, {wanted_.aov, wanted_.cone_spacing}); !done)
             return done;
     }
     graph::BufferHandle fragments;
     if (wanted_.blended && !wanted_.aov) {
         fragments = graph.import_buffer(fragments_.description());
         if (auto done = passes::add_blend(graph, pipelines_, inputs_, lighting_, camera_view_, lists, *visibility, maps, volume,
-                                          fragments, *picture, extent); !done)
+                                          fragments, picture, extent, wanted_.cone_traced); !done)
             return done;
     }
-    if (auto done = passes::add_accumulate(graph, pipelines_, *picture, sum, replace_sum_, extent); !done) return done;
+    if (auto done = passes::add_accumulate(graph, pipelines_, picture, sum, replace_sum_, extent); !done) return done;
     graph::ImageHandle display;
     if (wanted_.display) {
         display = graph.import_image(display_.description());
@@ -313,7 +315,7 @@ Result<void> FrameRenderer::build_frame_graph() {
     frame_executor_->bind(sum, sum_);
     frame_executor_->bind(volume.faces, *voxels_.inputs().faces);
     frame_executor_->bind(volume.depths, *voxels_.inputs().depths);
-    frame_executor_->bind(volume.cubes, *voxels_.inputs().cubes);
+    frame_executor_->bind(volume.occupancy, *voxels_.inputs().occupancy);
     if (fragments) frame_executor_->bind(fragments, fragments_);
     if (display) frame_executor_->bind(display, display_);
     return {};

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "passes/empty_cubes/empty_cubes.h"
+#include "passes/occupancy/occupancy.h"
 
 namespace heliodon::realtime {
 namespace {
@@ -104,10 +104,10 @@ Result<void> VoxelVolume::make_texture(VkExtent3D extent) {
     }
     ++texture_revision_;
     shown_ = {};
-    auto cubes = zeroed(device_, "empty cubes", sizeof(std::uint32_t) * passes::empty_cube_words(extent.width / 2));
-    if (!cubes) return tl::unexpected(cubes.error());
-    cubes_ = std::move(*cubes);
-    inputs_ = {&faces_, &depths_, &data_buffer_, &cubes_, *trilinear, 2 * extent.height > extent.width};
+    auto occupancy = zeroed(device_, "occupancy", passes::occupancy_bytes(extent.width / 2, extent.height / (extent.width / 2)));
+    if (!occupancy) return tl::unexpected(occupancy.error());
+    occupancy_ = std::move(*occupancy);
+    inputs_ = {&faces_, &depths_, &data_buffer_, &occupancy_, *trilinear, 2 * extent.height > extent.width};
     shown_inputs_ = inputs_;
     shown_inputs_.data = &shown_buffer_;
     return device_.run("clear volume", [&](gpu::Commands& commands) {

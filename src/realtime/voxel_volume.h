@@ -141,7 +141,7 @@ private:
     float emission_unit_ = 1;
     gpu::Buffer data_buffer_, shown_buffer_;
     gpu::Image faces_, depths_;
-    gpu::Buffer cubes_;  // passes/empty_cubes
+    gpu::Buffer occupancy_;
     passes::VolumeInputs inputs_, shown_inputs_;  // shown_inputs_: for light gathered while the texture is made anew
 };
 

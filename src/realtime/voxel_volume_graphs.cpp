@@ -1,7 +1,7 @@
 // The frame graphs of the volume's steps.
 #include "realtime/voxel_volume.h"
 
-#include "passes/empty_cubes/empty_cubes.h"
+#include "passes/occupancy/occupancy.h"
 
 namespace heliodon::realtime {
 namespace {
@@ -38,7 +38,7 @@ struct VoxelVolume::VolumeGraph {
 VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
     VolumeGraph volume;
     volume.images = {volume.graph.import_image(faces_.description()), volume.graph.import_image(depths_.description()),
-                     volume.graph.import_buffer(cubes_.description())};
+                     volume.graph.import_buffer(occupancy_.description())};
     volume.shadow_maps = {volume.graph.import_image(source.shadow_depth.description()),
                           volume.graph.import_image(source.shadow_slope.description())};
     for (const auto& cascade : cascades_) {
@@ -64,7 +64,7 @@ VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
 Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& volume, const Source& source) const {
     volume.graph.export_image(volume.images.faces, graph::Usage::sampled);
     volume.graph.export_image(volume.images.depths, graph::Usage::sampled);
-    volume.graph.export_buffer(volume.images.cubes);
+    volume.graph.export_buffer(volume.images.occupancy);
     for (const auto& one : volume.cascades)
         for (const graph::BufferHandle buffer : {one.surfaces.numbers, one.surfaces.cells, one.surfaces.records,
                                                  one.surfaces.tiles, one.surfaces.levels, one.lit_faces, one.illuminance, one.gathered,
@@ -75,7 +75,7 @@ Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& v
     if (auto done = executor.set_graph(volume.graph); !done) return done;
     executor.bind(volume.images.faces, faces_);
     executor.bind(volume.images.depths, depths_);
-    executor.bind(volume.images.cubes, cubes_);
+    executor.bind(volume.images.occupancy, occupancy_);
     executor.bind(volume.shadow_maps.depth, source.shadow_depth);
     executor.bind(volume.shadow_maps.slope, source.shadow_slope);
     for (std::size_t i = 0; i < cascades_.size(); ++i) {
@@ -150,7 +150,7 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
         for (const auto& cascade : volume.cascades)
             if (auto done = passes::add_radiance(volume.graph, pipelines_, cascade, volume.images, emission_only); !done) return done;
         if (auto done = passes::add_filter(volume.graph, pipelines_, volume.cascades[last], volume.images); !done) return done;
-        return passes::add_empty_cubes(volume.graph, pipelines_, volume.images, data_.size, data_.cascades, outdated_);
+        return passes::add_occupancy(volume.graph, pipelines_, volume.cascades, volume.images);
     };
     VolumeGraph emission = begin();
     if (auto done = add_volume(emission, true); !done) return done;

@@ -18,12 +18,14 @@ VkDeviceSize blend_buffer_bytes(std::uint32_t capacity) {
 Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene, const LightingInputs& lighting,
                        const gpu::Buffer& views, const DrawLists& lists, const Visibility& visibility,
                        const ShadowMaps& shadow_maps, const VolumeImages& volume, graph::BufferHandle fragments,
-                       graph::ImageHandle picture, VkExtent2D extent) {
+                       graph::ImageHandle picture, VkExtent2D extent, bool cone_traced) {
     auto description = raster_description("blend lists", "passes/common/opaque.vert", "passes/blend/blend_lists.frag");
     description.depth_write = false;
     auto collect = pipelines.graphics(description);
     if (!collect) return tl::unexpected(collect.error());
-    auto compose = pipelines.compute("passes/blend/blend.comp", cone_constants(*lighting.volume, lighting.cone_shadows));
+    gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
+    constants[1] = cone_traced ? 1 : 0;
+    auto compose = pipelines.compute("passes/blend/blend.comp", constants);
     if (!compose) return tl::unexpected(compose.error());
 
     const graph::BufferHandle heads =
@@ -81,7 +83,7 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},
                                                    {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
-                                                   {23, *lighting.volume->cubes},
+                                                   {23, *lighting.volume->occupancy},
                                                    {12, context.buffer(fragments)},
                                                    {13, context.buffer(heads)},
                                                    {14, context.image(picture)}});

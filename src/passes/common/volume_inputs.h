@@ -12,7 +12,7 @@ struct VolumeInputs {
     const gpu::Image* faces = nullptr;     ///< RGBA16F, as VolumeData says
     const gpu::Image* depths = nullptr;    ///< R16F, likewise
     const gpu::Buffer* data = nullptr;     ///< VolumeData
-    const gpu::Buffer* cubes = nullptr;    ///< sizes of empty cubes: a word a cell (passes/empty_cubes)
+    const gpu::Buffer* occupancy = nullptr;  ///< a byte a texel (passes/occupancy)
     VkSampler trilinear = VK_NULL_HANDLE;  ///< linear within a level, nearest level, edges clamped
     bool nested = false;                   ///< of several cascades; pipelines are chosen by it
 };
@@ -22,15 +22,15 @@ struct VolumeInputs {
     return {{6, volume.nested ? 1u : 0u}, {7, cone_shadows ? 1u : 0u}};
 }
 
-/// Its images in a graph, and the sizes of its empty cubes.
+/// Its images in a graph, and the its occupancy.
 struct VolumeImages {
     graph::ImageHandle faces, depths;
-    graph::BufferHandle cubes;
+    graph::BufferHandle occupancy;
 };
 inline void read_volume(graph::PassBuilder& pass, const VolumeImages& volume) {
     pass.read(volume.faces, graph::Usage::sampled);
     pass.read(volume.depths, graph::Usage::sampled);
-    pass.read(volume.cubes, graph::Usage::storage_read);
+    pass.read(volume.occupancy, graph::Usage::storage_read);
 }
 
 }  // namespace heliodon::passes

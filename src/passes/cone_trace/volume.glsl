@@ -6,11 +6,13 @@
 #ifndef HELIODON_VOLUME_GLSL
 #define HELIODON_VOLUME_GLSL
 #include "passes/cone_trace/volume_shared.h"
+#include "passes/occupancy/occupancy_shared.h"
 
 layout(set = 0, binding = 20) uniform sampler3D voxel_faces_texture;
 layout(set = 0, binding = 22) uniform sampler3D voxel_depths_texture;
 layout(constant_id = 6) const bool nested = true;  // there is more than one cascade
 layout(set = 0, binding = 21, std430) readonly buffer Volume_ { VolumeData volume; };
+layout(set = 0, binding = 23, std430) readonly buffer Occupancy { uint occupancy[]; };
 
 /// World to the lattice of the finest voxels.
 vec3 to_lattice(vec3 world) { return (world - volume.lattice) / volume.voxel_m; }
@@ -74,8 +76,20 @@ vec3 face_coordinates(vec3 position, float edge, float level) {
     return at / (size * vec3(2.0f, nested ? float(volume.cascades) : 1.0f, 3.0f));
 }
 
+/// Bit 2 axis + side: whether a look at this texel, of the lattice at `level`, can find that face to cover anything.
+uint occupied_faces(ivec3 texel, uint level) {
+    const uint cascade = nested ? min(level, volume.cascades - 1u) : 0u;
+    const uint mip = level - cascade;
+    const int size = int(volume.size >> mip);
+    const ivec3 at = clamp(nested ? texel - volume.cascade[cascade].base : texel, ivec3(0), ivec3(size - 1));  // the widest has base 0
+    const uint word = occupancy_first(volume.size, cascade, mip) + uint(at.x + size * (at.y + size * at.z)) / 4u;
+    return occupancy[word] >> 8u * (uint(at.x) & 3u);
+}
+
 // Cones that graze a layer at less than a quarter of its slope pass it too seldom to matter.
 const float most_looks = 4.0f;
+// In texels, past a texel's border: on it rounding decides to which side a position belongs.
+const float least_step = 1.0e-3f;
 
 struct ConeResult {
     vec3 radiance;  // cd/m² × cover
@@ -106,6 +120,10 @@ ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float r
 
     vec3 edge = vec3(nested ? exp2(level_holding(origin + direction * begin)) : 1.0f);
     vec3 next = max(((floor((start + slope * begin) / edge) + 0.5f * look) * edge - start) * inverse, vec3(begin));
+    // Bits of the faces that look against the cone.
+    const uint facing = (backward.x ? 1u : 2u) | (backward.y ? 4u : 8u) | (backward.z ? 16u : 32u);
+    const uint levels = occupancy_levels(volume.size) + (nested ? volume.cascades - 1u : 0u);
+    uint wide_level = 0u;  // at which to look first whether there is anything
     while (true) {
         const float t = min(next.x, min(next.y, next.z));
         if (!(t <= end)) break;
@@ -130,8 +148,29 @@ ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float r
             next = mix(next, vec3(((outer + 0.5f) * axis_edge - axis_start) * axis_inverse), axis);
             continue;
         }
+        const uint own_level = findMSB(uint(axis_edge));
+        const uint asked_level = max(own_level, wide_level);
+        if (asked_level < levels) {
+            const float asked_edge = float(1u << asked_level);
+            if ((occupied_faces(ivec3(floor(position / asked_edge)), asked_level) & facing) == 0u) {
+                // Nothing until the cone leaves this texel, at its level and finer ones: their axes go on from there, at
+                // the level that fits there if its texels lie within this one.
+                const vec3 leaves = ((floor((start + slope * t) / asked_edge) + 1.0f) * asked_edge - start) * inverse;
+                const float onward = min(leaves.x, min(leaves.y, leaves.z)) + least_step * asked_edge;
+                const uint reach_there = uint(onward * radius);
+                const float fitting = reach_there == 0u ? 1.0f : float(2u << findMSB(reach_there));
+                const bvec3 passes = bvec3(uvec3(lessThan(next, vec3(onward))) & uvec3(lessThanEqual(edge, vec3(asked_edge))));
+                edge = mix(edge, min(max(edge, vec3(fitting)), vec3(min(asked_edge, coarsest))), passes);
+                const vec3 looks_at = (floor((start + slope * onward) / edge) + 0.5f * look) * edge;
+                next = mix(next, max((looks_at - start) * inverse, vec3(onward)), passes);
+                wide_level = asked_level + 1u;
+                continue;
+            }
+            wide_level = max(asked_level, 1u) - 1u;
+            if (asked_level > own_level) continue;
+        }
         const bool turned = any(bvec3(axis.x && backward.x, axis.y && backward.y, axis.z && backward.z));
-        const float level = float(findMSB(uint(axis_edge)));
+        const float level = float(own_level);
         const float mip = nested ? level - min(level, float(volume.cascades - 1u)) : level;
         // A ray that goes forward sees what looks backward. Along the axis a layer's texels are looked up in their middle,
         // wherever the face stands: layers do not mix.

@@ -161,7 +161,7 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},
                                                    {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
-                                                   {23, *lighting.volume->cubes}});
+                                                   {23, *lighting.volume->occupancy}});
             dispatch_lit_faces(context, *direct, cascade, bindings, lit_groups, every_side);
         });
     return {};
@@ -192,7 +192,7 @@ Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const Sc
                                                    {20, gpu::Binding(context.image(images.faces), volume.trilinear)},
                                                    {21, *volume.data},
                                                    {22, gpu::Binding(context.image(images.depths), volume.trilinear)},
-                                                   {23, *volume.cubes}});
+                                                   {23, *volume.occupancy}});
             dispatch_lit_faces(context, *gather, cascade, bindings, lit_gather_groups, *cascade.gather_faces);
         });
     return {};

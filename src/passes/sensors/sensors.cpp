@@ -20,7 +20,7 @@ Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, 
                                            {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                            {21, *lighting.volume->data},
                                            {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
-                                                   {23, *lighting.volume->cubes},
+                                                   {23, *lighting.volume->occupancy},
                                            {12, sensors}});
     commands.dispatch_threads(**pipeline, push, bindings, {count, 1, 1});
     return {};
@@ -32,7 +32,7 @@ Result<void> record_cone_sensors(gpu::Commands& commands, gpu::Pipelines& pipeli
     if (!pipeline) return tl::unexpected(pipeline.error());
     const auto bindings = select_bindings(
         **pipeline, scene, {{12, sensors}, {20, gpu::Binding(*volume.faces, volume.trilinear)}, {21, *volume.data},
-                          {22, gpu::Binding(*volume.depths, volume.trilinear)}, {23, *volume.cubes}});
+                          {22, gpu::Binding(*volume.depths, volume.trilinear)}, {23, *volume.occupancy}});
     commands.dispatch_threads(**pipeline, shading::SensorConstants{count, 0, 0, 0}, bindings, {count, 1, 1});
     return {};
 }

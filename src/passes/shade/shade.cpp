@@ -2,15 +2,23 @@
 
 namespace heliodon::passes {
 
-Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                     const LightingInputs& lighting, const Visibility& visibility,
-                                     const ShadowMaps& shadow_maps, const VolumeImages& volume, VkExtent2D extent, bool aov) {
+Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                         const LightingInputs& lighting, const Visibility& visibility, const ShadowMaps& shadow_maps,
+                         const VolumeImages& volume, VkExtent2D extent, const ShadeOptions& options) {
     gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
-    constants[0] = aov ? 1 : 0;
+    constants[0] = options.aov ? 1 : 0;
+    constants[1] = options.cones_follow ? 1 : 0;
     auto pipeline = pipelines.compute("passes/shade/shade.comp", constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
-    const graph::ImageHandle picture = graph.create_image(
-        {.name = "radiance", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {extent.width, extent.height, 1}});
+    const auto image = [&](const char* name, VkFormat format, VkExtent2D size) {
+        return graph.create_image({.name = name, .format = format, .extent = {size.width, size.height, 1}});
+    };
+    const VkExtent2D left = options.cones_follow ? extent : VkExtent2D{1, 1};
+    const Shaded shaded{.picture = image("radiance", VK_FORMAT_R32G32B32A32_SFLOAT, extent),
+                        .places = image("surface places", VK_FORMAT_R32G32B32A32_UINT, left),
+                        .albedos = image("surface albedos", VK_FORMAT_R32G32B32A32_UINT, left),
+                        .lobes = image("surface lobes", VK_FORMAT_R32G32_UINT, left),
+                        .ids = visibility.ids};
     graph.add_pass(
         "shade", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
@@ -18,9 +26,10 @@ Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipeli
             pass.read(shadow_maps.depth, graph::Usage::sampled);
             pass.read(shadow_maps.slope, graph::Usage::sampled);
             read_volume(pass, volume);
-            pass.write(picture, graph::Usage::storage_write);
+            for (const graph::ImageHandle written : {shaded.picture, shaded.places, shaded.albedos, shaded.lobes})
+                pass.write(written, graph::Usage::storage_write);
         },
-        [&scene, &lighting, visibility, shadow_maps, picture, extent, shade = *pipeline](graph::PassContext& context) {
+        [&scene, &lighting, visibility, shadow_maps, shaded, extent, shade = *pipeline](graph::PassContext& context) {
             const auto bindings = select_bindings(*shade, scene,
                                                   {{8, *lighting.frame},
                                                    {9, *lighting.shadow_views},
@@ -32,12 +41,15 @@ Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipeli
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},
                                                    {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
-                                                   {23, *lighting.volume->cubes},
+                                                   {23, *lighting.volume->occupancy},
                                                    {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
-                                                   {13, context.image(picture)}});
+                                                   {13, context.image(shaded.picture)},
+                                                   {14, context.image(shaded.places)},
+                                                   {17, context.image(shaded.albedos)},
+                                                   {18, context.image(shaded.lobes)}});
             context.commands.dispatch_threads(*shade, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
         });
-    return picture;
+    return shaded;
 }
 
 }  // namespace heliodon::passes
