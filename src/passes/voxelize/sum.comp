@@ -18,6 +18,8 @@ const uint most_probes = 8u;  // then the record itself is added to
 const uint in_slot = 0x80000000u;
 shared uint slot_face[slots];  // + 1; 0: empty
 shared uint slot_sums[slots * voxel_field_count];
+shared uint used_slot[slots];
+shared uint used_count;
 
 uint face_sums(uint face) {
     if (push.over_tiles == 0u)
@@ -26,6 +28,7 @@ uint face_sums(uint face) {
             // Once it is there it stays: only what does not see it yet has to ask for it.
             if (slot_face[slot] == face + 1u) return in_slot | slot * voxel_field_count;
             const uint found = atomicCompSwap(slot_face[slot], 0u, face + 1u);
+            if (found == 0u) used_slot[atomicAdd(used_count, 1u)] = slot;
             if (found == 0u || found == face + 1u) return in_slot | slot * voxel_field_count;
         }
     return face * voxel_field_count;
@@ -39,8 +42,9 @@ void add_to_sum(uint place, uint amount) {
 void main() {
     const bool large = push.over_tiles != 0u;
     const uint own = gl_LocalInvocationID.x;
-    for (uint i = own; i < slots; i += piece_invocations) slot_face[i] = 0u;
-    for (uint i = own; i < slots * voxel_field_count; i += piece_invocations) slot_sums[i] = 0u;
+    if (own == 0u) used_count = 0u;
+    for (uint i = own; i < slots && !large; i += piece_invocations) slot_face[i] = 0u;
+    for (uint i = own; i < slots * voxel_field_count && !large; i += piece_invocations) slot_sums[i] = 0u;
     VoxelTriangle triangle;
     bool left = large ? find_column(triangle) : find_triangle(triangle) && is_small(triangle);
     ivec3 voxel = triangle.low;
@@ -54,9 +58,11 @@ void main() {
             if (number != 0u && number != voxel_without_room) sum(piece, at, number - 1u, own);
         }
     } while (unlisted != 0u);
-    if (large) return;
     barrier();
-    for (uint i = own; i < slots * voxel_field_count; i += piece_invocations)
-        if (slot_sums[i] != 0u)
-            atomicAdd(records[(slot_face[i / voxel_field_count] - 1u) * voxel_field_count + i % voxel_field_count], slot_sums[i]);
+    for (uint i = own; i < used_count * voxel_field_count; i += piece_invocations) {
+        const uint slot = used_slot[i / voxel_field_count];
+        const uint field = i % voxel_field_count;
+        const uint amount = slot_sums[slot * voxel_field_count + field];
+        if (amount != 0u) atomicAdd(records[(slot_face[slot] - 1u) * voxel_field_count + field], amount);
+    }
 }
