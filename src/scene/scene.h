@@ -136,13 +136,16 @@ enum class Rasterizer : std::uint8_t { automatic, hardware, compute };
 /// What a voxel shows: its own value to each of six sides, or one value to all (docs/gi-theory.md).
 enum class VoxelFiltering : std::uint8_t { anisotropic, isotropic };
 
+/// Which pixels trace diffuse and specular cones for those about them: each, or one of 2×2 or of 4×4.
+enum class ConeResolution : std::uint8_t { full, half, quarter };
+
 /// Effects of voxel cone tracing, each of which switches alone.
 struct ConeTracingSettings {
     bool diffuse = true, specular = true, refraction = true;
-    bool shadows = false;          ///< lights by a cone of their true size instead of shadow maps
-    bool ao = true;                ///< off: the sky is not occluded
-    int cones = 9;                 ///< over the hemisphere; a multiple of 9
-    bool half_resolution = false;  ///< diffuse cones at every second pixel, upsampled by depth and normal
+    bool shadows = false;  ///< lights by a cone of their true size instead of shadow maps
+    bool ao = true;        ///< off: the sky is not occluded
+    int cones = 9;         ///< over the hemisphere; a multiple of 9
+    ConeResolution resolution = ConeResolution::full;
     VoxelFiltering filtering = VoxelFiltering::anisotropic;
     bool operator==(const ConeTracingSettings&) const = default;
 };

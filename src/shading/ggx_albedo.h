@@ -20,7 +20,7 @@
 SHADING_BEGIN
 
 // The array: A, B interleaved, row by row; averages of A, B a row; glass by side (thin, dense), index,
-// row, column; its averages by side, index, row; the average Fresnel reflectance by index.
+// row, column; its averages by side, index, row; the average Fresnel reflectance by index; lobe_cone.h's pairs.
 SHADING_CONST uint ggx_albedo_columns = 64u;
 SHADING_CONST uint ggx_albedo_rows = 128u;
 SHADING_CONST uint ggx_albedo_averages = 2u * 128u * 64u;
@@ -30,7 +30,10 @@ SHADING_CONST uint glass_indices = 12u;
 SHADING_CONST uint glass_albedo_start = 2u * 128u * 64u + 2u * 128u;
 SHADING_CONST uint glass_average_start = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u;
 SHADING_CONST uint glass_fresnel_start = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u;
-SHADING_CONST uint shading_table_size = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u + 12u;
+SHADING_CONST uint specular_lobe_columns = 48u;
+SHADING_CONST uint specular_lobe_rows = 48u;
+SHADING_CONST uint specular_lobe_start = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u + 12u;
+SHADING_CONST uint shading_table_size = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u + 12u + 2u * 48u * 48u;
 SHADING_CONST float glass_largest_f0_root = 0.5f;  // (n − 1)/(n + 1) of the last index, n = 3
 
 #ifndef __cplusplus

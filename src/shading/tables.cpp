@@ -66,10 +66,9 @@ double boundary(const VisibleNormals& normals, vec2 cos_sin, const Predicate& ho
     return above;
 }
 
-/// (A, B): the mean of G2/G1 (1 − (1 − o·h)⁵) and G2/G1 (1 − o·h)⁵ over the visible normals.
-glm::dvec2 reflection_albedo(float mu, float alpha, const Rules& rules) {
-    const VisibleNormals normals(mu, alpha);
-    glm::dvec2 sum(0);
+/// Visits the visible normals that reflect upwards: add(h, share), share the node's weight times G2/G1.
+template <class Add>
+void visit_reflections(const VisibleNormals& normals, const Rules& rules, const Add& add) {
     for (const auto& [cos_sin, angle_weight] : rules.turn) {
         const double lowest = boundary(normals, cos_sin, [&](vec3 h) { return normals.mirrored_z(h) > 0.0f; });
         for (std::size_t i = 0; i < rules.cap.x.size(); ++i) {
@@ -78,12 +77,36 @@ glm::dvec2 reflection_albedo(float mu, float alpha, const Rules& rules) {
             const float wi_z = normals.mirrored_z(h);
             if (wi_z <= 0.0f) continue;
             const double weight = rules.cap.weight[i] * (1.0 - lowest) * 3.0 * height * height * angle_weight;
-            const double value = weight * ggx_g2(mu, wi_z, alpha) / normals.g1;
-            const double fresnel = schlick_weight(dot(normals.wo, h));
-            sum += glm::dvec2(1.0 - fresnel, fresnel) * value;
+            add(h, weight * ggx_g2(normals.wo.z, wi_z, normals.alpha) / normals.g1);
         }
     }
+}
+
+/// (A, B): the mean of G2/G1 (1 − (1 − o·h)⁵) and G2/G1 (1 − o·h)⁵ over the visible normals.
+glm::dvec2 reflection_albedo(float mu, float alpha, const Rules& rules) {
+    const VisibleNormals normals(mu, alpha);
+    glm::dvec2 sum(0);
+    visit_reflections(normals, rules, [&](vec3 h, double share) {
+        const double fresnel = schlick_weight(dot(normals.wo, h));
+        sum += glm::dvec2(1.0 - fresnel, fresnel) * share;
+    });
     return sum;
+}
+
+/// specular_lobe()'s entry. Both moments are means over the visible normals (Heitz 2018, "Sampling the GGX Distribution of
+/// Visible Normals"): with E = Σ share, the mean direction is that of Σ share · i, and Ω = E²/Σ share · density.
+glm::vec2 reflection_cone(float mu, float alpha, const Rules& rules) {
+    const VisibleNormals normals(mu, alpha);
+    double energy = 0, mean_square = 0, x = 0, z = 0;
+    visit_reflections(normals, rules, [&](vec3 h, double share) {
+        const vec3 i = h * (2.0f * dot(normals.wo, h)) - normals.wo;
+        energy += share;
+        x += share * i.x;
+        z += share * i.z;
+        mean_square += share * ggx_reflection(normals.wo, i, h, alpha);
+    });
+    const double one_minus_cos = energy * energy / mean_square / (2 * std::numbers::pi);
+    return {static_cast<float>(std::atan2(-x, z) / std::acos(double(mu))), static_cast<float>(std::sqrt(one_minus_cos) / alpha)};
 }
 
 /// Reflection with height-correlated and refraction with separable masking, as bsdf.h has them.
@@ -177,6 +200,19 @@ void fill_reflection(std::span<float> table, const Rules& rules) {
     }
 }
 
+void fill_specular_lobes(std::span<float> table, const Rules& rules) {
+    constexpr double largest_mu = 1 - 1e-5;  // stands for the limit from the normal, where the angles' ratio is 0/0
+    for (std::size_t j = 0; j < specular_lobe_rows; ++j)
+        for (std::size_t i = 0; i < specular_lobe_columns; ++i) {
+            const double x = static_cast<double>(i) / (specular_lobe_columns - 1);
+            const auto mu = static_cast<float>(std::clamp(x * x, smallest_mu, largest_mu));
+            const glm::vec2 cone = reflection_cone(mu, alpha_of_row(j, specular_lobe_rows), rules);
+            const std::size_t entry = specular_lobe_start + 2 * (j * specular_lobe_columns + i);
+            table[entry] = cone.x;
+            table[entry + 1] = cone.y;
+        }
+}
+
 double fresnel_average(float eta) {
     const GaussLegendre<32> rule;
     double sum = 0;
@@ -211,6 +247,7 @@ std::vector<float> compute_tables() {
     const Rules rules;
     fill_reflection(table, rules);
     fill_glass(table, rules);
+    fill_specular_lobes(table, rules);
     return table;
 }
 

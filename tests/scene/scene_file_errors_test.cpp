@@ -222,7 +222,9 @@ const std::vector<BadFile>& bad_files() {
         {"ConeTracingNotAnObject", R"("render": {"vct": true})", "$.render.vct: expected an object, found true"},
         {"UnknownEffect", R"("render": {"vct": {"gloss": true}})",
          "$.render.vct.gloss: unknown key; expected diffuse, specular, refraction, shadows, ao, cones, "
-         "half_resolution, filtering"},
+         "resolution, filtering"},
+        {"UnknownResolution", R"("render": {"vct": {"resolution": "eighth"}})",
+         "$.render.vct.resolution: expected one of \"full\", \"half\", \"quarter\", found \"eighth\""},
         {"EffectNotBoolean", R"("render": {"vct": {"shadows": 1}})",
          "$.render.vct.shadows: expected true or false, found 1"},
         {"TooFewCones", R"("render": {"vct": {"cones": 8}})",

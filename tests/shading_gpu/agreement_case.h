@@ -1,7 +1,7 @@
 // What both languages compute for case `i`: every header of the shading room on pseudo-random input.
 #ifndef HELIODON_TESTS_AGREEMENT_CASE_H
 #define HELIODON_TESTS_AGREEMENT_CASE_H
-#include "shading/cone.h"
+#include "shading/lobe_cone.h"
 #include "shading/light.h"
 #include "shading/material_eval.h"
 #include "shading/octahedral.h"

@@ -4,8 +4,10 @@
 #include "passes/common/lighting.glsl"
 #include "passes/common/visible_lights.glsl"
 #include "passes/blend/blend_shared.h"
+#include "passes/blend/blended_light.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 1) const bool cone_traced = false;
 layout(set = 0, binding = 8, std430) readonly buffer Frame_ { FrameData frame; };
 layout(set = 0, binding = 12, std430) buffer Fragments { uint fragment_count; uint fragment_demand; uint padding1; uint padding2; BlendFragment fragments[]; };
 layout(set = 0, binding = 13, std430) readonly buffer Heads { uint heads[]; };
@@ -46,7 +48,8 @@ void main() {
         const SurfacePoint point = resolve_surface(fragment.instance, fragment.triangle, frame, direction);
         const float opacity = point.material.opacity;
         if (opacity <= 0.0f) continue;
-        const vec3 radiance = surface_radiance(point, frame, pcg_hash(seed + fragment.instance + pcg_hash(fragment.triangle)));
+        vec3 radiance = surface_radiance(point, frame, pcg_hash(seed + fragment.instance + pcg_hash(fragment.triangle)));
+        if (cone_traced && frame.batch == 0u) radiance += indirect_reflected(point, frame.cone_shift, solid_diagonal(fragment.instance));
         // The picture has all lights that stand before opaque surfaces: those before this one it does not dim.
         vec3 before = vec3(0.0f);
         if (frame.batch == 0u) before = lights_seen(frame.position, -point.wo, distance(frame.position, point.position));

@@ -97,17 +97,19 @@ vec3 sky_reflected(SurfacePoint point, BsdfLobes lobes) {
     return sum;
 }
 
-/// Radiance towards the viewer: this batch's lights; emission and sky with the first batch.
-vec3 surface_radiance(SurfacePoint point, FrameData frame, uint pixel_seed) {
+/// Radiance towards the viewer (`wo`, local): this batch's lights; emission and sky with the first batch.
+vec3 surface_radiance(SurfacePoint point, vec3 wo, BsdfLobes lobes, FrameData frame, uint pixel_seed) {
     if (point.dark) return vec3(0.0f);
-    const vec3 wo = to_local(point.frame, point.wo);
-    const BsdfLobes lobes = bsdf_prepare(point.material.surface, wo);
     vec3 radiance = lights_reflected(point, lobes, wo, frame, pixel_seed);
     if (frame.batch == 0u) {
         radiance += point.material.emission;
         if (frame.sky_enabled != 0u && frame.cone_traced == 0u && sky_data.model != sky_model_none && wo.z > 0.0f) radiance += sky_reflected(point, lobes);
     }
     return radiance;
+}
+vec3 surface_radiance(SurfacePoint point, FrameData frame, uint pixel_seed) {
+    const vec3 wo = to_local(point.frame, point.wo);
+    return surface_radiance(point, wo, bsdf_prepare(point.material.surface, wo), frame, pixel_seed);
 }
 
 #endif

@@ -6,14 +6,13 @@
 namespace heliodon::passes {
 
 struct ConeTraceOptions {
-    bool aov = false;              ///< what FrameData::aov asks for instead of indirect light
-    bool half_resolution = false;  ///< diffuse cones at one pixel in four, upsampled by depth and normal
+    bool aov = false;           ///< what FrameData::aov asks for instead of indirect light
+    std::uint32_t spacing = 1;  ///< of the pixels that trace cones for those about them: 1, 2 or 4
 };
-/// Adds to `picture` the indirect light of what `visibility` shows.
+/// Adds to the picture the indirect light of the surfaces that shading left.
 [[nodiscard]] Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                           const LightingInputs& lighting, const VolumeInputs& volume,
-                                          const VolumeImages& images, const Visibility& visibility,
-                                          graph::ImageHandle picture, VkExtent2D extent,
+                                          const VolumeImages& images, const Shaded& shaded, VkExtent2D extent,
                                           const ConeTraceOptions& options);
 
 }  // namespace heliodon::passes

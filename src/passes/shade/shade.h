@@ -19,11 +19,19 @@ struct LightingInputs {
     const gpu::Buffer* light_grid = nullptr;      ///< light_grid.h: for picking among very many lights
 };
 
-/// Lights the visibility buffer in compute: the batch's lights with their shadows, emission, sky. Returns the
-/// picture, RGBA32F radiance in cd/m², alpha = coverage; with `aov` what FrameData::aov asks for instead.
-[[nodiscard]] Result<graph::ImageHandle> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                                   const LightingInputs& lighting, const Visibility& visibility,
-                                                   const ShadowMaps& shadow_maps, const VolumeImages& volume, VkExtent2D extent,
-                                                   bool aov);
+struct Shaded {
+    graph::ImageHandle picture;                 ///< RGBA32F radiance in cd/m², alpha = coverage
+    graph::ImageHandle places, albedos, lobes;  ///< of its surfaces (cone_trace/cone_surface.glsl), where cones follow
+    graph::ImageHandle ids;                     ///< of the visibility buffer
+};
+struct ShadeOptions {
+    bool aov = false;           ///< what FrameData::aov asks for instead of radiance
+    bool cones_follow = false;  ///< surfaces are left for add_cone_trace()
+};
+/// Lights the visibility buffer in compute: the batch's lights with their shadows, emission, sky.
+[[nodiscard]] Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                       const LightingInputs& lighting, const Visibility& visibility,
+                                       const ShadowMaps& shadow_maps, const VolumeImages& volume, VkExtent2D extent,
+                                       const ShadeOptions& options);
 
 }  // namespace heliodon::passes

@@ -1,0 +1,32 @@
+// The surfaces of a picture's pixels, as the passes that trace their cones read them.
+#ifndef HELIODON_CONE_PIXELS_GLSL
+#define HELIODON_CONE_PIXELS_GLSL
+#include "passes/common/frame_shared.h"
+#include "passes/cone_trace/cone_light.glsl"
+#include "passes/cone_trace/cone_surface.glsl"
+#include "shading/lobe_cone.h"
+
+layout(set = 0, binding = 8, std430) readonly buffer Frame_ { FrameData frame; };
+layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
+layout(set = 0, binding = 12) uniform usampler2D surface_places;
+layout(set = 0, binding = 18) uniform usampler2D surface_albedos;
+layout(set = 0, binding = 19) uniform usampler2D surface_lobes;
+float shading_table(uint index) { return shading_tables[index]; }
+
+ConeSurface surface_at(ivec2 pixel) {
+    return unpack_surface(PackedSurface(texelFetch(surface_places, pixel, 0), texelFetch(surface_albedos, pixel, 0),
+                                        texelFetch(surface_lobes, pixel, 0).xy));
+}
+/// Of length 1 along the view.
+vec3 view_ray(ivec2 pixel) {
+    const vec2 at = vec2(pixel) + 0.5f + frame.jitter;
+    return frame.ray_corner + frame.ray_dx * at.x + frame.ray_dy * at.y;
+}
+vec3 position_at(ivec2 pixel, float depth_m) { return frame.position + depth_m * view_ray(pixel); }
+/// The viewer's direction about a normal: in its frame.
+vec3 viewer(ivec2 pixel, vec3 normal) { return to_local(frame_from_normal(normal), -normalize(view_ray(pixel))); }
+
+/// As half floats hold it.
+vec3 in_volume_unit(vec3 radiance) { return min(radiance / volume.radiance_unit, vec3(65504.0f)); }
+
+#endif
