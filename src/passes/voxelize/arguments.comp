@@ -5,13 +5,14 @@
 
 layout(local_size_x = 1) in;
 layout(set = 0, binding = 16, std430) buffer Numbers { VoxelHeader header; };
-layout(set = 0, binding = 20, std430) writeonly buffer TileArguments { uvec4 tile_arguments; };
+layout(set = 0, binding = 20, std430) writeonly buffer TileArguments { uvec4 tile_arguments; };  // those of tiles alone, or with all triangles
 layout(push_constant) uniform Push { VoxelizeConstants push; };
 
 void main() {
     header.tile_count = min(header.tile_demand, push.tile_capacity);
     header.tile_groups = spread_groups(header.tile_count);
-    tile_arguments = header.tile_groups;
+    tile_arguments = push.over_tiles != 0u ? header.tile_groups
+                                           : spread_groups(header.tile_count + (push.triangle_count + 63u) / 64u);
     header.record_count = min(header.record_demand, push.record_capacity);
     header.record_groups = spread_groups((header.record_count + 63u) / 64u);
     header.face_groups = spread_groups((header.record_count * voxel_faces + 63u) / 64u);

@@ -89,10 +89,10 @@ void mark_pieces(VoxelTriangle triangle, bool left) {
 void main() {
     VoxelTriangle triangle;
     if (push.over_tiles != 0u) {
-        mark_pieces(triangle, find_column(triangle));
+        mark_pieces(triangle, find_column(linear_group(), triangle));
         return;
     }
-    const bool found = find_triangle(triangle);
+    const bool found = find_triangle(linear_invocation(), triangle);
     const bool small = found && is_small(triangle);
     if (gl_LocalInvocationID.x == 0u) wide_count = 0u;
     mark_pieces(triangle, small);
@@ -104,9 +104,7 @@ void main() {
     barrier();
     // Those of many tiles have them sought by all.
     for (uint i = 0u; i < wide_count; ++i) {
-        const uint number = linear_group() * piece_invocations + wide[i];
-        const TriangleRange range = range_of(number, push.range_count);
-        if (load_triangle(range.instance, number - range.first_triangle, triangle))
+        if (find_triangle(linear_group() * piece_invocations + wide[i], triangle))
             list_tiles(triangle, search_of(triangle), int(gl_LocalInvocationID.x), int(piece_invocations));
     }
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Sums the records: of small triangles, or of the tiles of large ones. Neighbouring small triangles share voxels, so that
+// Sums the records: workgroups first take the tiles of large triangles, then the small ones. Neighbouring small triangles share voxels, so that
 // a workgroup adds up what it can by itself.
 #include "passes/voxelize/voxel_shared.h"
 
@@ -22,7 +22,7 @@ shared uint used_slot[slots];
 shared uint used_count;
 
 uint face_sums(uint face) {
-    if (push.over_tiles == 0u)
+    if (linear_group() >= header.tile_count)
         for (uint probe = 0u; probe < most_probes; ++probe) {
             const uint slot = ((face * 2654435769u >> (32u - slot_bits)) + probe) % slots;
             // Once it is there it stays: only what does not see it yet has to ask for it.
@@ -40,13 +40,15 @@ void add_to_sum(uint place, uint amount) {
 #include "passes/voxelize/voxel_sum.glsl"
 
 void main() {
-    const bool large = push.over_tiles != 0u;
+    const uint group = linear_group();
+    const bool large = group < header.tile_count;
     const uint own = gl_LocalInvocationID.x;
     if (own == 0u) used_count = 0u;
     for (uint i = own; i < slots && !large; i += piece_invocations) slot_face[i] = 0u;
     for (uint i = own; i < slots * voxel_field_count && !large; i += piece_invocations) slot_sums[i] = 0u;
     VoxelTriangle triangle;
-    bool left = large ? find_column(triangle) : find_triangle(triangle) && is_small(triangle);
+    bool left = large ? find_column(group, triangle)
+                      : find_triangle((group - header.tile_count) * piece_invocations + own, triangle) && is_small(triangle);
     ivec3 voxel = triangle.low;
     do {
         begin_pieces();

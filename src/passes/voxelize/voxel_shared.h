@@ -98,7 +98,7 @@ struct VoxelizeConstants {
     uint triangle_count;
     uint record_capacity;
     uint tile_capacity;
-    uint over_tiles;    // compute: the dispatch takes the tiles of large triangles, not all triangles
+    uint over_tiles;    // mark: the tiles of large triangles, not all triangles; arguments: of what goes over tiles alone
     float dilation_px;  // raster: half a pixel and what rounding can take, where the hardware does not find all pixels
     uint padding0;
     uint padding1;

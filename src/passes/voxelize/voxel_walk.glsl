@@ -11,17 +11,15 @@ bool is_small(VoxelTriangle triangle) {
     return span.x * span.y * span.z <= small_triangle_voxels;
 }
 
-/// This invocation's triangle of all; false if there is none.
-bool find_triangle(out VoxelTriangle triangle) {
-    const uint number = linear_invocation();
+/// A triangle of all; false if there is none.
+bool find_triangle(uint number, out VoxelTriangle triangle) {
     if (number >= push.triangle_count) return false;
     const TriangleRange range = range_of(number, push.range_count);
     return load_triangle(range.instance, number - range.first_triangle, triangle);
 }
 
-/// The triangle of this workgroup's tile, and instead of its box the part of it in this invocation's column.
-bool find_column(out VoxelTriangle triangle) {
-    const uint number = linear_group();
+/// The triangle of a tile, and instead of its box the part of it in this invocation's column.
+bool find_column(uint number, out VoxelTriangle triangle) {
     if (number >= header.tile_count) return false;
     const VoxelTile tile = tiles[number];
     if (!load_triangle(tile.instance, tile.primitive, triangle)) return false;

@@ -128,8 +128,10 @@ Result<void> add_carry(const Voxelization& self) {
                     });
 }
 
-Result<void> add_arguments(const Voxelization& self, const char* name) {
-    return self.add({.name = name, .shader = "passes/voxelize/arguments.comp", .over = Voxelization::Step::Over::nothing,
+/// `over_tiles`: of what goes over tiles alone, and not also over all triangles.
+Result<void> add_arguments(const Voxelization& self, const char* name, bool over_tiles) {
+    return self.add({.name = name, .shader = "passes/voxelize/arguments.comp", .over_tiles = over_tiles,
+                     .over = Voxelization::Step::Over::nothing,
                      .buffers = {{16, self.surfaces.numbers}, {20, self.tile_arguments}}},
                     [&](PassBuilder& pass) {
                         pass.read_write(self.surfaces.numbers, Usage::storage_read_write);
@@ -147,7 +149,7 @@ Result<void> add_mark(const Voxelization& self) {
         pass.write(s.tiles, Usage::storage_write);
     };
     if (auto done = self.add(step, uses); !done) return done;
-    if (auto done = add_arguments(self, "voxelize tile arguments"); !done) return done;
+    if (auto done = add_arguments(self, "voxelize tile arguments", true); !done) return done;
     step.name = "voxelize mark large";
     step.over_tiles = true;
     step.indirect = self.tile_arguments;
@@ -157,7 +159,7 @@ Result<void> add_mark(const Voxelization& self) {
         pass.read_write(s.tiles, Usage::storage_read_write);
     };
     if (auto done = self.add(step, uses_of_tiles); !done) return done;
-    return add_arguments(self, "voxelize arguments");
+    return add_arguments(self, "voxelize arguments", false);
 }
 
 Result<void> add_prepare(const Voxelization& self) {
@@ -166,36 +168,41 @@ Result<void> add_prepare(const Voxelization& self) {
     // Without anything to carry nothing reads the last two.
     return self.add({.name = "voxelize prepare", .shader = "passes/voxelize/prepare.comp", .indirect = s.numbers,
                      .indirect_offset = offsetof(shading::VoxelHeader, record_groups),
-                     .buffers = {{16, s.numbers}, {17, s.cells}, {18, s.records}, {20, s.levels}, {21, self.listed},
+                     .buffers = {{16, s.numbers}, {18, s.records},
                                  {22, carries ? self.sources : s.cells}, {23, carries ? s.carried.records : s.cells}},
                      .constants = {{0, carries ? 1u : 0u}}},
                     [&](PassBuilder& pass) {
                         pass.read(s.numbers, Usage::storage_read);
-                        pass.read(s.cells, Usage::storage_read);
                         pass.write(s.records, Usage::storage_write);
+                        pass.read(carries ? self.sources : s.cells, Usage::storage_read);
+                        if (carries) pass.read(s.carried.records, Usage::storage_read);
+                    });
+}
+
+/// Touches nothing that the sums touch: both can be under way at once.
+Result<void> add_levels(const Voxelization& self) {
+    const VoxelSurfaces& s = self.surfaces;
+    return self.add({.name = "voxelize levels", .shader = "passes/voxelize/levels.comp", .indirect = s.numbers,
+                     .indirect_offset = offsetof(shading::VoxelHeader, record_groups),
+                     .buffers = {{16, s.numbers}, {17, s.cells}, {20, s.levels}, {21, self.listed}}},
+                    [&](PassBuilder& pass) {
+                        pass.read(s.numbers, Usage::storage_read);
+                        pass.read(s.cells, Usage::storage_read);
                         pass.read_write(s.levels, Usage::storage_read_write);
                         pass.read_write(self.listed, Usage::storage_read_write);
-                        if (!carries) return;
-                        pass.read(self.sources, Usage::storage_read);
-                        pass.read(s.carried.records, Usage::storage_read);
                     });
 }
 
 Result<void> add_sum(const Voxelization& self) {
     const VoxelSurfaces& s = self.surfaces;
-    Voxelization::Step step{.name = "voxelize sum", .shader = "passes/voxelize/sum.comp",
-                            .buffers = {{13, self.even_surfaces}, {16, s.numbers}, {18, s.records}, {19, s.tiles}}};
-    const auto uses = [&](PassBuilder& pass) {
-        pass.read(self.even_surfaces, Usage::storage_read);
-        pass.read(s.numbers, Usage::storage_read);
-        pass.read(s.tiles, Usage::storage_read);
-        pass.read_write(s.records, Usage::storage_read_write);
-    };
-    if (auto done = self.add(step, uses); !done) return done;
-    step.name = "voxelize sum large";
-    step.over_tiles = true;
-    step.indirect = self.tile_arguments;
-    return self.add(step, uses);
+    return self.add({.name = "voxelize sum", .shader = "passes/voxelize/sum.comp", .indirect = self.tile_arguments,
+                     .buffers = {{13, self.even_surfaces}, {16, s.numbers}, {18, s.records}, {19, s.tiles}}},
+                    [&](PassBuilder& pass) {
+                        pass.read(self.even_surfaces, Usage::storage_read);
+                        pass.read(s.numbers, Usage::storage_read);
+                        pass.read(s.tiles, Usage::storage_read);
+                        pass.read_write(s.records, Usage::storage_read_write);
+                    });
 }
 
 /// How the hardware is made to find every pixel that a triangle touches.
@@ -275,7 +282,8 @@ Result<void> add_voxelize(graph::Graph& graph, gpu::Pipelines& pipelines, const 
     if (!self) return tl::unexpected(self.error());
     if (auto done = add_mark(*self); !done) return done;
     if (auto done = add_prepare(*self); !done) return done;
-    return add_sum(*self);
+    if (auto done = add_sum(*self); !done) return done;
+    return add_levels(*self);
 }
 
 Result<void> add_voxelize_raster(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
@@ -289,8 +297,9 @@ Result<void> add_voxelize_raster(graph::Graph& graph, gpu::Pipelines& pipelines,
                                pass.read_write(surfaces.cells, Usage::storage_read_write);
                            });
     if (!done) return done;
-    if (done = add_arguments(self, "voxelize arguments"); !done) return done;
+    if (done = add_arguments(self, "voxelize arguments", false); !done) return done;
     if (done = add_prepare(self); !done) return done;
+    if (done = add_levels(self); !done) return done;
     return add_raster(self, "voxelize sum raster", "passes/voxelize/raster_sum.frag",
                       {{13, self.even_surfaces}, {16, surfaces.numbers}, {18, surfaces.records}}, [&](PassBuilder& pass) {
                           pass.read(self.even_surfaces, Usage::storage_read);
