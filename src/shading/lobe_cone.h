@@ -30,7 +30,7 @@ SHADING_FN vec2 specular_lobe_row(uint first, float x) {
 }
 /// What stands in specular_lobe_start's table: the mean direction's angle from the normal as a share of the mirror's, and
 /// √(1 − cos γ)/α; bilinear in √μ (to which the second of a narrow lobe is in proportion) and √α. Between the entries it
-/// is within 0.1° and 1 % of solid angle for μ ≥ 0.1, 7 % below (tests/shading/cone_test.cpp).
+/// is within 0.1° and 1 % of solid angle for μ ≥ 0.1, 10 % below (tests/shading/cone_test.cpp).
 SHADING_FN vec2 specular_lobe(float mu, float alpha) {
     float row = alpha_coordinate(alpha) * float(specular_lobe_rows - 1u);
     float column = sqrt(clamp(mu, 0.0f, 1.0f)) * float(specular_lobe_columns - 1u);

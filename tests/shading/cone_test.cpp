@@ -172,13 +172,13 @@ TEST(SpecularCone, PointsWhereTheReflectionsOfGgxDoOnAverage) {
         }
 }
 
-TEST(SpecularCone, StandsInATableThatIsWithinSevenPercentOfSolidAngleAtGrazingIncidence) {
+TEST(SpecularCone, StandsInATableThatIsWithinATenthOfSolidAngleAtGrazingIncidence) {
     for (float alpha : {0.0017f, 0.01f, 0.12f})
         for (float mu : {0.003f, 0.02f, 0.06f}) {
             const vec2 entry = specular_lobe(mu, alpha);
             const SampledLobe lobe = sampled_lobe(direction(mu), alpha, 0);
             SCOPED_TRACE(::testing::Message() << "alpha " << alpha << " mu " << mu);
-            EXPECT_NEAR(entry.y * entry.y * alpha * alpha / lobe.one_minus_cos(), 1.0, 0.07);
+            EXPECT_NEAR(entry.y * entry.y * alpha * alpha / lobe.one_minus_cos(), 1.0, 0.1);
             EXPECT_NEAR(entry.x * std::acos(mu), std::atan2(-lobe.mean.x, lobe.mean.z), 0.2 * turn / 360);
         }
 }

@@ -6,6 +6,7 @@ namespace {
 using graph::Usage;
 
 constexpr std::uint32_t spacing_constant = 1;  // of traced_pixels.glsl
+constexpr std::uint32_t rows_constant = 2;     // of trace_pixels.comp
 constexpr VkExtent2D tile{8, 4};               // traced pixels of a workgroup
 // Of listed_pixels.glsl: where the lists' dispatch arguments stand, and in how many bytes.
 constexpr VkDeviceSize unlike_groups = 0, transmissive_groups = 16, lists_header_bytes = 32;
@@ -75,7 +76,9 @@ Result<void> add_weights(graph::Graph& graph, gpu::Pipelines& pipelines, const C
 
 /// All cones at once: each of the three dispatches writes what no other one does.
 Result<void> add_cones(graph::Graph& graph, gpu::Pipelines& pipelines, const ConeTrace& cones) {
-    auto traced = pipelines.compute("passes/cone_trace/trace_pixels.comp", cones.constants());
+    gpu::Specialization constants = cones.constants();
+    constants[rows_constant] = cones.options.spacing == 1 ? 2 : cones.options.spacing == 2 ? 5 : 10;
+    auto traced = pipelines.compute("passes/cone_trace/trace_pixels.comp", constants);
     if (!traced) return tl::unexpected(traced.error());
     auto unlike = pipelines.compute("passes/cone_trace/trace_listed.comp", cones.constants());
     if (!unlike) return tl::unexpected(unlike.error());
