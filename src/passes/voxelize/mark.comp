@@ -94,8 +94,10 @@ void main() {
     }
     const bool found = find_triangle(linear_invocation(), triangle);
     const bool small = found && is_small(triangle);
+    // Most small triangles lie wholly in a voxel, and that has a number already.
+    const bool numbered = small && triangle.low == triangle.high && voxel_number[voxel_place(triangle.low)] != 0u;
     if (gl_LocalInvocationID.x == 0u) wide_count = 0u;
-    mark_pieces(triangle, small);
+    mark_pieces(triangle, small && !numbered);
     if (found && !small) {
         const TileSearch search = search_of(triangle);
         if (search.count.x * search.count.y <= int(piece_invocations)) list_tiles(triangle, search, 0, 1);
