@@ -20,6 +20,7 @@ struct InjectConstants {
 struct LitFacesHeader {
     uvec4 groups[6];         // of 64 invocations, one a face
     uvec4 gather_groups[6];  // of gather_faces_a_group faces
+    uvec4 workgroups_done;   // x: of those that make the lists
 };
 SHADING_CONST uint gather_faces_a_group = 32u;
 

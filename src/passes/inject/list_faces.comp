@@ -3,12 +3,14 @@
 // Lists the faces that light can leave, for each of the six sides, and takes the light off those that stay dark.
 #include "passes/inject/record_work.glsl"
 
+layout(local_size_y = voxel_faces) in;
 layout(set = 0, binding = 19, std430) writeonly buffer Illuminance { vec4 illuminance[]; };
 layout(set = 0, binding = 22, std430) writeonly buffer Gathered { vec4 gathered[]; };
 layout(set = 0, binding = 25, std430) buffer LitFaces { LitFacesHeader header; uint lit_records[]; };
 
 shared uint listed[voxel_faces];  // by this workgroup
 shared uint list_first[voxel_faces];
+shared bool last_to_list;
 
 bool vanishes(uint first) { return (records[first] | records[first + 1u] | records[first + 2u]) == 0u; }
 
@@ -21,35 +23,28 @@ bool reflects(uint index) {
     return false;
 }
 
-/// Makes room for `count` more entries, and for the workgroups that they need.
-uint append(uint face, uint count) {
-    const uint first = atomicAdd(header.groups[face].w, count);
-    const uvec4 groups = spread_groups((first + count + 63u) / 64u);
-    const uvec4 gather = spread_groups((first + count + gather_faces_a_group - 1u) / gather_faces_a_group);
-    atomicMax(header.groups[face].x, groups.x);
-    atomicMax(header.groups[face].y, groups.y);
-    atomicMax(header.gather_groups[face].x, gather.x);
-    atomicMax(header.gather_groups[face].y, gather.y);
-    header.groups[face].z = 1u;
-    header.gather_groups[face].z = 1u;
-    return first;
+void write_arguments(uint face) {
+    const uint count = atomicOr(header.groups[face].w, 0u);  // as other workgroups left it
+    header.groups[face].xyz = spread_groups((count + 63u) / 64u).xyz;
+    header.gather_groups[face] = spread_groups((count + gather_faces_a_group - 1u) / gather_faces_a_group);
 }
 
 void main() {
     const uint record = linear_invocation();
-    const uint own_face = gl_LocalInvocationID.x;
-    if (own_face < voxel_faces) listed[own_face] = 0u;
+    const uint face = gl_LocalInvocationID.y;
+    if (gl_LocalInvocationID.x == 0u) listed[face] = 0u;
     barrier();
-    uint place[voxel_faces];
-    uint lit = 0u;
-    for (uint face = 0u; face < voxel_faces; ++face) {
-        if (record >= voxel_header.record_count || !reflects(record * voxel_faces + face)) continue;
-        place[face] = atomicAdd(listed[face], 1u);
-        lit |= 1u << face;
-    }
+    uint place = 0u;
+    const bool lit = record < voxel_header.record_count && reflects(record * voxel_faces + face);
+    if (lit) place = atomicAdd(listed[face], 1u);
     barrier();
-    if (own_face < voxel_faces && listed[own_face] > 0u) list_first[own_face] = append(own_face, listed[own_face]);
+    if (gl_LocalInvocationID.x == 0u && listed[face] > 0u) list_first[face] = atomicAdd(header.groups[face].w, listed[face]);
+    memoryBarrierBuffer();
     barrier();
-    for (uint face = 0u; face < voxel_faces; ++face)
-        if ((lit & (1u << face)) != 0u) lit_records[face * voxel_header.record_count + list_first[face] + place[face]] = record;
+    if (gl_LocalInvocationIndex == 0u)
+        last_to_list = record < voxel_header.record_count &&
+                       atomicAdd(header.workgroups_done.x, 1u) == (voxel_header.record_count - 1u) / 64u;
+    if (lit) lit_records[face * voxel_header.record_count + list_first[face] + place] = record;
+    barrier();
+    if (last_to_list && gl_LocalInvocationID.x == 0u) write_arguments(face);
 }

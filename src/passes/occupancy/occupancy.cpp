@@ -51,7 +51,7 @@ Result<void> add_occupancy(graph::Graph& graph, gpu::Pipelines& pipelines, std::
                 pass.read(cascade.surfaces.cells, Usage::storage_read);
                 pass.read(cascade.surfaces.records, Usage::storage_read);
             }
-            pass.read(images.faces, Usage::storage_read);
+            pass.read_write(images.faces, Usage::storage_read_write);  // it may have nothing to read: what wrote them stays to be waited for
             pass.read_write(images.occupancy, Usage::storage_read_write);
         },
         [all = std::vector(cascades.begin(), cascades.end()), images, records = *records, levels = *levels](graph::PassContext& context) {
