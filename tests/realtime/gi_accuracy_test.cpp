@@ -39,6 +39,8 @@ std::vector<int> wall_of_pixels(const Picture& surfaces) {
 
 class GiAccuracy : public GlobalIllumination {
 protected:
+    VoxelFiltering filtering = VoxelFiltering::anisotropic;
+
     /// `emission_only`: the scene has no lights, and what emissive surfaces send counts as indirect.
     Accuracy measure(const std::string& name, int voxels, int cones, bool emission_only) {
         start_over();
@@ -52,6 +54,9 @@ protected:
             return accuracy;
         }
         use_cone_tracing(*scene, voxels, cones);
+        RenderSettings settings = scene->render_settings();
+        settings.vct.filtering = filtering;
+        scene->set_render_settings(settings);
         Camera camera;
         scene->cameras().each([&](CameraId, const Camera& first) { camera = first; });
         const Picture surfaces = path_traced(*scene, camera, picture_size, 64, 1, {"albedo", "normal", "position"});
@@ -132,6 +137,24 @@ TEST_F(GiAccuracy, NineConesFindALampThatOnlyEmitsNoWorseThanTheyDid) {
     // Asked is FLIP ≤ 0.10, which nine cones miss in so few frames.
     const Accuracy found = measure("cornell", 64, 9, true);
     expect_not_risen(found, {.walls = 0.139, .energy = 0.0087, .flip = 0.1286}, 0.05);
+}
+
+TEST_F(GiAccuracy, TheResolutionThatSpeedIsQuotedForIsAsNearAsIsAsked) {
+    if (!std::getenv("HELIODON_FULL")) GTEST_SKIP() << "at full size only";
+    if (!shared_path("scenes/cornell.heliodon.json")) GTEST_SKIP() << "no shared data";
+    expect_within(measure("cornell-point", 128, 9, false), {.walls = 0.10, .energy = 0.03, .flip = 0.08});
+    expect_within(measure("cornell", 128, 36, true), {.walls = 0.15, .energy = 0.05, .flip = 0.10});
+}
+
+TEST_F(GiAccuracy, SixValuesAVoxelAreNearerThanOne) {
+    if (!std::getenv("HELIODON_FULL")) GTEST_SKIP() << "at full size only";
+    if (!shared_path("scenes/cornell-point.heliodon.json")) GTEST_SKIP() << "no shared data";
+    filtering = VoxelFiltering::isotropic;
+    const Accuracy one = measure("cornell-point", 64, 9, false);
+    filtering = VoxelFiltering::anisotropic;
+    const Accuracy six = measure("cornell-point", 64, 9, false);
+    EXPECT_LT(3 * six.flip, one.flip);
+    EXPECT_LT(3 * six.walls, one.walls);
 }
 
 TEST_F(GiAccuracy, ErrorFallsAsVoxelsAndConesRise) {
