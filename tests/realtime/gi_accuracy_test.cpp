@@ -153,8 +153,8 @@ TEST_F(GiAccuracy, SixValuesAVoxelAreNearerThanOne) {
     const Accuracy one = measure("cornell-point", 64, 9, false);
     filtering = VoxelFiltering::anisotropic;
     const Accuracy six = measure("cornell-point", 64, 9, false);
-    EXPECT_LT(3 * six.flip, one.flip);
-    EXPECT_LT(3 * six.walls, one.walls);
+    EXPECT_LT(2 * six.flip, one.flip);
+    EXPECT_LT(2 * six.walls, one.walls);
 }
 
 TEST_F(GiAccuracy, ErrorFallsAsVoxelsAndConesRise) {
