@@ -15,7 +15,7 @@ float shading_table(uint index) { return shading_tables[index]; }
 
 ConeSurface surface_at(ivec2 pixel) {
     return unpack_surface(PackedSurface(texelFetch(surface_places, pixel, 0), texelFetch(surface_albedos, pixel, 0),
-                                        texelFetch(surface_lobes, pixel, 0).xy));
+                                        texelFetch(surface_lobes, pixel, 0).x));
 }
 /// Of length 1 along the view.
 vec3 view_ray(ivec2 pixel) {

@@ -10,13 +10,12 @@ struct ConeSurface {
     vec3 normal;
     float alpha;
     float coat_alpha;
-    float eta;
     ConeLobes albedo;  // its coat's is grey
 };
 struct PackedSurface {
     uvec4 place;
     uvec4 albedos;
-    uvec2 lobes;
+    uint lobes;
 };
 
 uint pack_direction(vec3 v) { return packSnorm2x16(octahedral_encode(v)); }
@@ -28,7 +27,7 @@ PackedSurface pack_surface(ConeSurface s) {
     p.place = uvec4(floatBitsToUint(s.depth_m), pack_direction(s.geometric), pack_direction(s.normal), packHalf2x16(vec2(s.alpha, s.coat_alpha)));
     p.albedos = uvec4(packHalf2x16(a.diffuse.xy), packHalf2x16(vec2(a.diffuse.z, a.specular.x)), packHalf2x16(a.specular.yz),
                       packHalf2x16(a.refraction.xy));
-    p.lobes = uvec2(packHalf2x16(vec2(a.refraction.z, a.coat.x)), packHalf2x16(vec2(s.eta, 0.0f)));
+    p.lobes = packHalf2x16(vec2(a.refraction.z, a.coat.x));
     return p;
 }
 ConeSurface unpack_surface(PackedSurface p) {
@@ -40,12 +39,11 @@ ConeSurface unpack_surface(PackedSurface p) {
     s.alpha = alphas.x;
     s.coat_alpha = alphas.y;
     const vec2 middle = unpackHalf2x16(p.albedos.y);
-    const vec2 last = unpackHalf2x16(p.lobes.x);
+    const vec2 last = unpackHalf2x16(p.lobes);
     s.albedo.diffuse = vec3(unpackHalf2x16(p.albedos.x), middle.x);
     s.albedo.specular = vec3(middle.y, unpackHalf2x16(p.albedos.z));
     s.albedo.coat = vec3(last.y);
     s.albedo.refraction = vec3(unpackHalf2x16(p.albedos.w), last.x);
-    s.eta = unpackHalf2x16(p.lobes.y).x;
     return s;
 }
 

@@ -77,7 +77,7 @@ Result<void> add_weights(graph::Graph& graph, gpu::Pipelines& pipelines, const C
 /// All cones at once: each of the three dispatches writes what no other one does.
 Result<void> add_cones(graph::Graph& graph, gpu::Pipelines& pipelines, const ConeTrace& cones) {
     gpu::Specialization constants = cones.constants();
-    constants[rows_constant] = cones.options.spacing == 1 ? 2 : cones.options.spacing == 2 ? 5 : 10;
+    constants[rows_constant] = cones.options.spacing == 1 ? 2 : 5;
     auto traced = pipelines.compute("passes/cone_trace/trace_pixels.comp", constants);
     if (!traced) return tl::unexpected(traced.error());
     auto unlike = pipelines.compute("passes/cone_trace/trace_listed.comp", cones.constants());

@@ -2,15 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 // Traces the diffuse cones and the specular one of one pixel in `spacing`²: 32 pixels by a workgroup in rows of 32
 // invocations, each with the same cones of its pixels, so that a subgroup's cones go about the same way through about
-// the same voxels. Few pixels need many rows to fill a device; many are faster with few, which wait less for each other.
+// the same voxels. Few pixels need more rows to fill a device; many are faster with fewer, which wait less for each other.
 #include "passes/cone_trace/cone_pixels.glsl"
 #include "passes/cone_trace/traced_pixels.glsl"
 
 const ivec2 tile = ivec2(8, 4);  // of traced pixels
 layout(local_size_x = 32, local_size_y_id = 2) in;
-layout(constant_id = 2) const uint rows = 10u;  // a divisor of the cones
+layout(constant_id = 2) const uint rows = 5u;  // 2 or 5
 const uint in_turn = (cones_per_set + 1u) / rows;
-const uint most_rows = 10u;
+const uint most_rows = 5u;
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D diffuse;   // irradiance / π in the volume's unit, openness
 layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D specular;  // radiance likewise
 
@@ -44,8 +44,7 @@ void main() {
         else sum += cone.weight * vec4(light.radiance, light.openness);
     }
     traced[row * 32u + lane] = sum;
-    if (within && row == rows - 1u)
-        imageStore(specular, cell, vec4(in_volume_unit(reflected), 0.0f));
+    if (within && row == rows - 1u) imageStore(specular, cell, vec4(in_volume_unit(reflected), 0.0f));
     barrier();
     if (!within || row > 0u) return;
     for (uint other = 1u; other < rows; ++other) sum += traced[other * 32u + lane];

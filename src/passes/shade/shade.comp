@@ -14,7 +14,7 @@ layout(set = 0, binding = 12) uniform usampler2D visibility;
 layout(set = 0, binding = 13, rgba32f) uniform writeonly image2D contribution;
 layout(set = 0, binding = 14, rgba32ui) uniform writeonly uimage2D surface_places;
 layout(set = 0, binding = 17, rgba32ui) uniform writeonly uimage2D surface_albedos;
-layout(set = 0, binding = 18, rg32ui) uniform writeonly uimage2D surface_lobes;
+layout(set = 0, binding = 18, r32ui) uniform writeonly uimage2D surface_lobes;
 
 vec4 background(vec3 direction) {
     if (draws_aov || frame.batch != 0u) return vec4(0.0f);
@@ -28,7 +28,7 @@ void leave_surface(ivec2 pixel, ConeSurface surface) {
     const PackedSurface packed_surface = pack_surface(surface);
     imageStore(surface_places, pixel, packed_surface.place);
     imageStore(surface_albedos, pixel, packed_surface.albedos);
-    imageStore(surface_lobes, pixel, uvec4(packed_surface.lobes, 0u, 0u));
+    imageStore(surface_lobes, pixel, uvec4(packed_surface.lobes));
 }
 
 vec3 value_of(SurfacePoint point, vec3 wo, BsdfLobes lobes, uint pixel_seed) {
@@ -61,7 +61,7 @@ void main() {
             // Nothing is seen of the back of a one-sided surface.
             const uint effects = point.dark || wo.z <= 0.0f ? 0u : volume.effects;
             const float depth_m = dot(point.position - frame.position, frame.forward);
-            leave_surface(ivec2(pixel), ConeSurface(depth_m, point.geometric, point.frame.normal, lobes.alpha, lobes.coat_alpha, lobes.eta,
+            leave_surface(ivec2(pixel), ConeSurface(depth_m, point.geometric, point.frame.normal, lobes.alpha, lobes.coat_alpha,
                                                     cone_lobes(point.material.surface, lobes, effects)));
         }
         value = vec4(value_of(point, wo, lobes, seed), 1.0f);

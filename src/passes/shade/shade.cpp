@@ -17,7 +17,7 @@ Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const S
     const Shaded shaded{.picture = image("radiance", VK_FORMAT_R32G32B32A32_SFLOAT, extent),
                         .places = image("surface places", VK_FORMAT_R32G32B32A32_UINT, left),
                         .albedos = image("surface albedos", VK_FORMAT_R32G32B32A32_UINT, left),
-                        .lobes = image("surface lobes", VK_FORMAT_R32G32_UINT, left),
+                        .lobes = image("surface lobes", VK_FORMAT_R32_UINT, left),
                         .ids = visibility.ids};
     graph.add_pass(
         "shade", graph::PassKind::compute,
