@@ -11,6 +11,7 @@
 layout(set = 0, binding = 20) uniform sampler3D voxel_faces_texture;
 layout(set = 0, binding = 22) uniform sampler3D voxel_depths_texture;
 layout(constant_id = 6) const bool nested = true;  // there is more than one cascade
+layout(constant_id = 8) const bool asks_occupancy = true;
 layout(set = 0, binding = 21, std430) readonly buffer Volume_ { VolumeData volume; };
 layout(set = 0, binding = 23, std430) readonly buffer Occupancy { uint occupancy[]; };
 
@@ -91,124 +92,165 @@ const float most_looks = 4.0f;
 // In texels, past a texel's border: on it rounding decides to which side a position belongs.
 const float least_step = 1.0e-3f;
 
+/// A cone on its way, in finest voxels. Each axis is walked forward: where the cone goes backward, in the lattice's mirror
+/// image. The lattice is as wide as the widest cascade, whose voxels of every level mirror onto themselves.
+struct ConeWalk {
+    vec3 origin, direction;  // in the lattice
+    vec3 start, slope, inverse;
+    bvec3 backward;
+    float wide;        // edge of the lattice
+    float begin, end;  // of the way
+    float radius;      // where an edge is as long as this times the way, the next level fits
+    vec3 look;         // of a layer, from look to look
+    vec3 edge;         // of each axis' layers
+    vec3 next;         // way to its next look
+    uint facing;       // bits of the faces that look against the cone
+    uint levels;       // whose occupancy is asked for
+    uint wide_level;   // at which to ask first whether there is anything
+};
+
+ConeWalk begin_walk(vec3 origin, vec3 direction, float tan_half_angle, float reach) {
+    ConeWalk walk;
+    walk.origin = origin;
+    walk.direction = direction;
+    walk.wide = (nested ? exp2(float(volume.cascades - 1u)) : 1.0f) * float(volume.size);
+    walk.backward = lessThan(direction, vec3(0.0f));
+    walk.start = mix(origin, walk.wide - origin, walk.backward);
+    walk.slope = max(abs(direction), vec3(1.0e-12f));
+    walk.inverse = 1.0f / walk.slope;
+    const vec3 entries = -walk.start * walk.inverse;
+    walk.begin = max(0.0f, max(entries.x, max(entries.y, entries.z)));
+    const vec3 exits = (walk.wide - walk.start) * walk.inverse;
+    walk.end = min(reach, min(exits.x, min(exits.y, exits.z)));
+    // A texel is the mean over its edge and interpolation spreads it by another: it reaches 3/2 edges to each side. Where
+    // that is the cone's radius the level fits; the next one does from √2 times it on, to the nearest level.
+    walk.radius = tan_half_angle * (inversesqrt(2.0f) / 1.5f);
+    // A cone that grazes a layer goes far along it, and looks at it once a voxel, so that what stands at the layer's near
+    // side is seen before the cone has passed it by.
+    walk.look = 1.0f / clamp(ceil(max(walk.slope.yzx, walk.slope.zxy) * walk.inverse), vec3(1.0f), vec3(most_looks));
+    walk.edge = vec3(nested ? exp2(level_holding(origin + direction * walk.begin)) : 1.0f);
+    const vec3 layer = floor((walk.start + walk.slope * walk.begin) / walk.edge);
+    walk.next = max(((layer + 0.5f * walk.look) * walk.edge - walk.start) * walk.inverse, vec3(walk.begin));
+    walk.facing = (walk.backward.x ? 1u : 2u) | (walk.backward.y ? 4u : 8u) | (walk.backward.z ? 16u : 32u);
+    walk.levels = asks_occupancy ? occupancy_levels(volume.size) + (nested ? volume.cascades - 1u : 0u) : 0u;
+    walk.wide_level = 0u;
+    return walk;
+}
+
+float coarsest_edge(ConeWalk walk) { return 0.5f * walk.wide; }  // of the level before the last
+
+/// The axis whose look comes first; of several, one.
+bvec3 next_axis(ConeWalk walk, float t) {
+    const bool x = walk.next.x <= t;
+    const bool y = !x && walk.next.y <= t;
+    return bvec3(x, y, !x && !y);
+}
+
+/// Past its cascade an axis goes on in the layer of the next one that holds its layer, if that lies ahead.
+void leave_cascade(inout ConeWalk walk, bvec3 axis, float t) {
+    const vec3 outer_edge = 2.0f * walk.edge;
+    vec3 outer = floor(floor((walk.start + walk.slope * t) / walk.edge) * 0.5f);
+    outer += vec3(lessThan(((outer + 0.5f) * outer_edge - walk.start) * walk.inverse, vec3(walk.begin)));
+    walk.next = mix(walk.next, ((outer + 0.5f) * outer_edge - walk.start) * walk.inverse, axis);
+    walk.edge = mix(walk.edge, outer_edge, axis);
+}
+
+/// Nothing in the texel that holds the way's position: axes of its level and finer ones go on from where the cone leaves
+/// it, at the level that fits there as far as that one's texels lie within this texel.
+void leave_texel(inout ConeWalk walk, float texel_edge, float t) {
+    const vec3 leaves = ((floor((walk.start + walk.slope * t) / texel_edge) + 1.0f + least_step) * texel_edge - walk.start) * walk.inverse;
+    const float onward = min(leaves.x, min(leaves.y, leaves.z));
+    const uint width = uint(onward * walk.radius);
+    const float fitting = width == 0u ? 1.0f : float(2u << findMSB(width));
+    const bvec3 passes = bvec3(uvec3(lessThan(walk.next, vec3(onward))) & uvec3(lessThanEqual(walk.edge, vec3(texel_edge))));
+    walk.edge = mix(walk.edge, min(max(walk.edge, vec3(fitting)), vec3(min(texel_edge, coarsest_edge(walk)))), passes);
+    const vec3 looks_at = (floor((walk.start + walk.slope * onward) / walk.edge) + 0.5f * walk.look) * walk.edge;
+    walk.next = mix(walk.next, max((looks_at - walk.start) * walk.inverse, vec3(onward)), passes);
+}
+
+/// One step of the walk: true at a look that can find something. Steps and looks take turns in one loop, so that cones that
+/// are traced together need not wait for each other's way through empty space.
+bool step_on(inout ConeWalk walk, float t, out bvec3 axis, out uint level) {
+    axis = next_axis(walk, t);
+    const float edge = dot(vec3(axis), walk.edge);
+    const vec3 position = walk.origin + walk.direction * t;
+    level = findMSB(uint(edge));
+    if (nested && exp2(level_holding(position)) > edge) {
+        leave_cascade(walk, axis, t);
+        return false;
+    }
+    if (level >= walk.levels) return true;
+    const uint asked = max(level, min(walk.wide_level, walk.levels - 1u));
+    const float asked_edge = float(1u << asked);
+    if ((occupied_faces(ivec3(floor(position / asked_edge)), asked) & walk.facing) == 0u) {
+        leave_texel(walk, asked_edge, t);
+        walk.wide_level = asked + 1u;
+        return false;
+    }
+    walk.wide_level = max(asked, 1u) - 1u;
+    return asked == level;
+}
+
+/// The layer is done with once something of it was met. An axis goes to the coarser level where its next layer begins one
+/// there, so that each layer counts once.
+void leave_look(inout ConeWalk walk, bvec3 axis, float t, bool met) {
+    const vec3 walked = (walk.start + walk.slope * t) / walk.edge;
+    const vec3 layer = floor(walked);
+    const vec3 ahead = walked + walk.look;
+    const bvec3 leaves = bvec3(uvec3(met) | uvec3(greaterThanEqual(ahead, layer + 1.0f)));
+    const bvec3 coarser = bvec3(uvec3(leaves) & uvec3(greaterThanEqual(vec3(t * walk.radius), walk.edge)) &
+                                uvec3(lessThan(walk.edge, vec3(coarsest_edge(walk)))) & uvec3(equal(fract(0.5f * (layer + 1.0f)), vec3(0.0f))));
+    const vec3 scale = mix(vec3(1.0f), vec3(2.0f), coarser);
+    const vec3 edge = walk.edge * scale;
+    const vec3 onward = mix(ahead, (layer + 1.0f) / scale + 0.5f * walk.look, leaves);
+    walk.edge = mix(walk.edge, edge, axis);
+    walk.next = mix(walk.next, (onward * edge - walk.start) * walk.inverse, axis);
+}
+
 struct ConeResult {
     vec3 radiance;  // cd/m² × cover
     float cover;
 };
 
+/// What the cone meets of the layer it looks at, if it does ahead of its origin and within its reach.
+bool meet_layer(ConeWalk walk, bvec3 axis, float t, uint level, inout ConeResult result) {
+    const float edge = dot(vec3(axis), walk.edge);
+    const float start = dot(vec3(axis), walk.start);
+    const bool turned = any(bvec3(axis.x && walk.backward.x, axis.y && walk.backward.y, axis.z && walk.backward.z));
+    const float mip = float(nested ? level - min(level, volume.cascades - 1u) : level);
+    // A ray that goes forward sees what looks backward. Along the axis a layer's texels are looked up in their middle,
+    // wherever the face stands: layers do not mix.
+    const vec3 corner = vec3(turned ? 0.0f : 0.5f, 0.0f, axis.y ? 1.0f / 3.0f : axis.x ? 0.0f : 2.0f / 3.0f);
+    const float layer = floor((start + dot(vec3(axis), walk.slope) * t) / edge);
+    const float forward_middle = (layer + 0.5f) * edge;
+    const vec3 middle = vec3(turned ? walk.wide - forward_middle : forward_middle);
+    const vec3 at = corner + face_coordinates(mix(walk.origin + walk.direction * t, middle, axis), edge, float(level));
+    const vec4 seen = textureLod(voxel_faces_texture, at, mip);
+    if (seen.a <= 0.0f) return false;
+    const float depth = clamp(textureLod(voxel_depths_texture, at, mip).r / seen.a, 0.0f, 1.0f);
+    const float meets = ((layer + (turned ? 1.0f - depth : depth)) * edge - start) * dot(vec3(axis), walk.inverse);
+    if (!(meets >= walk.begin && meets <= walk.end)) return false;
+    const vec3 place = corner + face_coordinates(mix(walk.origin + walk.direction * meets, middle, axis), edge, float(level));
+    const vec4 face = textureLod(voxel_faces_texture, place, mip);
+    if (face.a <= 0.0f) return false;
+    const float gained = min(face.a, 1.0f - result.cover);
+    result.radiance += face.rgb * (gained / face.a);
+    result.cover += gained;
+    return true;
+}
+
 /// `origin` and `reach` in finest voxels; `direction` unit.
 ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float reach) {
     ConeResult result = ConeResult(vec3(0.0f), 0.0f);
-    // Each axis is walked forward: where the cone goes backward, in the lattice's mirror image. The lattice is as wide as
-    // the widest cascade, whose voxels of every level mirror onto themselves.
-    const float wide = (nested ? exp2(float(volume.cascades - 1u)) : 1.0f) * float(volume.size);
-    const bvec3 backward = lessThan(direction, vec3(0.0f));
-    const vec3 start = mix(origin, wide - origin, backward);
-    const vec3 slope = max(abs(direction), vec3(1.0e-12f));
-    const vec3 inverse = 1.0f / slope;
-    const vec3 entries = -start * inverse;
-    const float begin = max(0.0f, max(entries.x, max(entries.y, entries.z)));
-    const vec3 exits = (wide - start) * inverse;
-    const float end = min(reach, min(exits.x, min(exits.y, exits.z)));
-    const float coarsest = 0.5f * wide;  // edge of the voxels of the level before the last
-    // A texel is the mean over its edge and interpolation spreads it by another: it reaches 3/2 edges to each side. Where
-    // that is the cone's radius the level fits; an axis goes to the next one at √2 times it, to the nearest level.
-    const float radius = tan_half_angle * (inversesqrt(2.0f) / 1.5f);
-    // A cone that grazes a layer goes far along it, and looks at it once a voxel, so that what stands at the layer's near
-    // side is seen before the cone has passed it by.
-    const vec3 look = 1.0f / clamp(ceil(max(slope.yzx, slope.zxy) * inverse), vec3(1.0f), vec3(most_looks));
-
-    vec3 edge = vec3(nested ? exp2(level_holding(origin + direction * begin)) : 1.0f);
-    vec3 next = max(((floor((start + slope * begin) / edge) + 0.5f * look) * edge - start) * inverse, vec3(begin));
-    // Bits of the faces that look against the cone.
-    const uint facing = (backward.x ? 1u : 2u) | (backward.y ? 4u : 8u) | (backward.z ? 16u : 32u);
-    const uint levels = occupancy_levels(volume.size) + (nested ? volume.cascades - 1u : 0u);
-    uint wide_level = 0u;  // at which to look first whether there is anything
-    while (true) {
-        const float t = min(next.x, min(next.y, next.z));
-        if (!(t <= end)) break;
-        // The axis whose look comes first; of several, one.
-        const bool x = next.x <= t;
-        const bool y = !x && next.y <= t;
-        const bvec3 axis = bvec3(x, y, !x && !y);
-        const vec3 unit = vec3(axis);
-        float axis_edge = dot(unit, edge);
-        const float axis_start = dot(unit, start);
-        const float axis_slope = dot(unit, slope);
-        const float axis_inverse = dot(unit, inverse);
-        const float walked = axis_start + axis_slope * t;
-        const float layer = floor(walked / axis_edge);
-        const vec3 position = origin + direction * t;
-        if (nested && exp2(level_holding(position)) > axis_edge) {
-            // Past its cascade an axis goes on in the layer of the next one that holds this layer, if it lies ahead.
-            axis_edge *= 2.0f;
-            float outer = floor(0.5f * layer);
-            if (((outer + 0.5f) * axis_edge - axis_start) * axis_inverse < begin) outer += 1.0f;
-            edge = mix(edge, vec3(axis_edge), axis);
-            next = mix(next, vec3(((outer + 0.5f) * axis_edge - axis_start) * axis_inverse), axis);
-            continue;
-        }
-        const uint own_level = findMSB(uint(axis_edge));
-        const uint asked_level = max(own_level, wide_level);
-        if (asked_level < levels) {
-            const float asked_edge = float(1u << asked_level);
-            if ((occupied_faces(ivec3(floor(position / asked_edge)), asked_level) & facing) == 0u) {
-                // Nothing until the cone leaves this texel, at its level and finer ones: their axes go on from there, at
-                // the level that fits there if its texels lie within this one.
-                const vec3 leaves = ((floor((start + slope * t) / asked_edge) + 1.0f) * asked_edge - start) * inverse;
-                const float onward = min(leaves.x, min(leaves.y, leaves.z)) + least_step * asked_edge;
-                const uint reach_there = uint(onward * radius);
-                const float fitting = reach_there == 0u ? 1.0f : float(2u << findMSB(reach_there));
-                const bvec3 passes = bvec3(uvec3(lessThan(next, vec3(onward))) & uvec3(lessThanEqual(edge, vec3(asked_edge))));
-                edge = mix(edge, min(max(edge, vec3(fitting)), vec3(min(asked_edge, coarsest))), passes);
-                const vec3 looks_at = (floor((start + slope * onward) / edge) + 0.5f * look) * edge;
-                next = mix(next, max((looks_at - start) * inverse, vec3(onward)), passes);
-                wide_level = asked_level + 1u;
-                continue;
-            }
-            wide_level = max(asked_level, 1u) - 1u;
-            if (asked_level > own_level) continue;
-        }
-        const bool turned = any(bvec3(axis.x && backward.x, axis.y && backward.y, axis.z && backward.z));
-        const float level = float(own_level);
-        const float mip = nested ? level - min(level, float(volume.cascades - 1u)) : level;
-        // A ray that goes forward sees what looks backward. Along the axis a layer's texels are looked up in their middle,
-        // wherever the face stands: layers do not mix.
-        const vec3 corner = vec3(turned ? 0.0f : 0.5f, 0.0f, y ? 1.0f / 3.0f : x ? 0.0f : 2.0f / 3.0f);
-        const float forward_middle = (layer + 0.5f) * axis_edge;
-        const vec3 middle = vec3(turned ? wide - forward_middle : forward_middle);
-        const vec3 at = corner + face_coordinates(mix(position, middle, axis), axis_edge, level);
-        bool met = false;
-        const vec4 seen = textureLod(voxel_faces_texture, at, mip);
-        if (seen.a > 0.0f) {
-            // Where the cone meets it, if it does ahead of its origin and within its reach.
-            const float depth = clamp(textureLod(voxel_depths_texture, at, mip).r / seen.a, 0.0f, 1.0f);
-            const float meets = ((layer + (turned ? 1.0f - depth : depth)) * axis_edge - axis_start) * axis_inverse;
-            if (meets >= begin && meets <= end) {
-                const vec3 place = corner + face_coordinates(mix(origin + direction * meets, middle, axis), axis_edge, level);
-                const vec4 face = textureLod(voxel_faces_texture, place, mip);
-                met = face.a > 0.0f;
-                const float gained = min(face.a, 1.0f - result.cover);
-                if (met) result.radiance += face.rgb * (gained / face.a);
-                result.cover += gained;
-                if (result.cover >= 0.999f) break;
-            }
-        }
-        // The layer is done with once something of it was met. An axis goes to the coarser level where its next layer
-        // begins one there, so that each layer counts once.
-        const float axis_look = dot(unit, look);
-        const float ahead = walked / axis_edge + axis_look;
-        float onward = ahead;
-        if (met || ahead >= layer + 1.0f) {
-            onward = layer + 1.0f;
-            if (t * radius >= axis_edge && axis_edge < coarsest && fract(0.5f * onward) == 0.0f) {
-                onward *= 0.5f;
-                axis_edge *= 2.0f;
-            }
-            onward += 0.5f * axis_look;
-        }
-        edge = mix(edge, vec3(axis_edge), axis);
-        next = mix(next, vec3((onward * axis_edge - axis_start) * axis_inverse), axis);
+    ConeWalk walk = begin_walk(origin, direction, tan_half_angle, reach);
+    while (result.cover < 0.999f) {
+        const float t = min(walk.next.x, min(walk.next.y, walk.next.z));
+        if (!(t <= walk.end)) break;
+        bvec3 axis;
+        uint level;
+        if (!step_on(walk, t, axis, level)) continue;
+        const bool met = meet_layer(walk, axis, t, level, result);
+        leave_look(walk, axis, t, met);
     }
     result.radiance *= volume.radiance_unit;
     return result;

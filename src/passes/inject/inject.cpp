@@ -169,7 +169,9 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
 
 Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VolumeInputs& volume,
                         const InjectCascade& cascade, const VolumeImages& images) {
-    auto pipeline = pipelines.compute("passes/inject/gather.comp", {{6, volume.nested ? 1u : 0u}});
+    // Wide cones from faces that lie apart: a GPU looks faster than it asks whether to look (docs/performance.md).
+    const bool asks_occupancy = pipelines.device().info().is_cpu;
+    auto pipeline = pipelines.compute("passes/inject/gather.comp", {{6, volume.nested ? 1u : 0u}, {8, asks_occupancy ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         "gather", PassKind::compute,
