@@ -3,23 +3,39 @@
 #define HELIODON_BLENDED_LIGHT_GLSL
 #include "passes/cone_trace/refracted.glsl"
 
-/// cd/m².
+/// cd/m². `diagonal_m`: solid_diagonal().
 vec3 indirect_reflected(SurfacePoint point, vec2 shift, float diagonal_m) {
     const vec3 wo = to_local(point.frame, point.wo);
     if (point.dark || wo.z <= 0.0f) return vec3(0.0f);
     const BsdfLobes lobes = bsdf_prepare(point.material.surface, wo);
     const ConeLobes albedo = cone_lobes(point.material.surface, lobes, volume.effects);
-    const vec3 origin = cone_origin(point.position, point.geometric);
+    Refracted through;
+    if (albedo.refraction != vec3(0.0f)) through = refracted(point, wo, lobes, diagonal_m);
+    const vec3 outside = cone_origin(point.position, point.geometric);
+    const uint diffuse_cones = albedo.diffuse != vec3(0.0f) ? volume.cone_sets * cones_per_set : 0u;
+    const uint reflections = diffuse_cones + 2u;
+    const uint cones = reflections + (albedo.refraction != vec3(0.0f) ? refracted_cones : 0u);
     vec3 sum = vec3(0.0f);
-    if (albedo.diffuse != vec3(0.0f)) sum += albedo.diffuse * diffuse_light(origin, point.frame.normal, volume.cone_sets, shift).radiance;
-    for (uint i = 0u; i < 2u; ++i) {
-        const vec3 reflected = i == 0u ? albedo.specular : albedo.coat;
-        if (reflected == vec3(0.0f)) continue;
-        Cone cone = specular_cone(wo, i == 0u ? lobes.alpha : lobes.coat_alpha);
-        cone.direction = to_world(point.frame, cone.direction);
-        sum += reflected * cone_light(origin, cone).radiance;
+    // All of them by one loop: the tracing of a cone is much code.
+    for (uint i = 0u; i < cones; ++i) {
+        Cone cone;
+        vec3 origin = outside;
+        vec3 share;
+        if (i < diffuse_cones) {
+            share = albedo.diffuse;
+            cone = diffuse_cone(i % cones_per_set, i / cones_per_set, volume.cone_sets, shift);
+        } else if (i < reflections) {
+            const bool coat = i != diffuse_cones;
+            share = coat ? albedo.coat : albedo.specular;
+            if (share == vec3(0.0f)) continue;
+            cone = specular_cone(wo, coat ? lobes.coat_alpha : lobes.alpha);
+        } else {
+            share = albedo.refraction * through.tint;
+            cone = refracted_cone(through, i - reflections, origin);
+        }
+        if (i < reflections) cone.direction = to_world(point.frame, cone.direction);
+        if (cone.weight > 0.0f) sum += share * cone.weight * cone_light(origin, cone).radiance;
     }
-    if (albedo.refraction != vec3(0.0f)) sum += albedo.refraction * light_refracted(point, wo, lobes, diagonal_m);
     return sum;
 }
 

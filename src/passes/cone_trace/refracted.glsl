@@ -114,16 +114,14 @@ Cone around_cone(uint index) {
     return cone;
 }
 
-/// Radiance of what a transmissive surface shows, but for the share that it lets in.
-vec3 light_refracted(SurfacePoint point, vec3 wo, BsdfLobes lobes, float diagonal_m) {
-    const Refracted through = refracted(point, wo, lobes, diagonal_m);
-    vec3 sum = vec3(0.0f);
-    if (through.cone.weight > 0.0f) sum += through.cone.weight * cone_light(through.origin, through.cone).radiance;
-    for (uint i = 0u; i < around_cones && through.trapped > 0.0f; ++i) {
-        const Cone cone = around_cone(i);
-        sum += through.trapped * cone.weight * cone_light(through.middle, cone).radiance;
-    }
-    return sum * through.tint;
+/// Its cones: the one that leaves, and those for what is trapped. `origin` in finest voxels.
+const uint refracted_cones = 1u + around_cones;
+Cone refracted_cone(Refracted through, uint index, out vec3 origin) {
+    origin = index == 0u ? through.origin : through.middle;
+    if (index == 0u) return through.cone;
+    Cone cone = around_cone(index - 1u);
+    cone.weight *= through.trapped;
+    return cone;
 }
 
 #endif

@@ -17,6 +17,12 @@ void main() {
     const SurfacePoint point = resolve_surface(visible.x - 1u, visible.y, frame, view_ray(pixel));
     const vec3 wo = to_local(point.frame, point.wo);
     const BsdfLobes lobes = bsdf_prepare(point.material.surface, wo);
-    const vec3 radiance = light_refracted(point, wo, lobes, solid_diagonal(visible.x - 1u));
+    const Refracted through = refracted(point, wo, lobes, solid_diagonal(visible.x - 1u));
+    vec3 radiance = vec3(0.0f);
+    for (uint i = 0u; i < refracted_cones; ++i) {
+        vec3 origin;
+        const Cone cone = refracted_cone(through, i, origin);
+        if (cone.weight > 0.0f) radiance += cone.weight * through.tint * cone_light(origin, cone).radiance;
+    }
     imageStore(transmitted, pixel, vec4(in_volume_unit(radiance), 0.0f));
 }
