@@ -15,7 +15,8 @@ vec3 outward_area(vec3 at) {
     for (int axis = 0; axis < 3; ++axis) {
         const vec3 positive = first + vec3(0.0f, 0.0f, float(axis) / 3.0f);
         const vec3 negative = positive + vec3(0.5f, 0.0f, 0.0f);
-        area[axis] = textureLod(voxel_faces_texture, positive, 0.0f).a - textureLod(voxel_faces_texture, negative, 0.0f).a;
+        area[axis] = textureLod(voxel_faces_texture, positive, 0.0f).a;
+        area[axis] -= textureLod(voxel_faces_texture, negative, 0.0f).a;
     }
     return area;
 }
@@ -96,7 +97,8 @@ Refracted refracted(SurfacePoint point, vec3 wo, BsdfLobes lobes, float diagonal
     result.tint = lobes.transmission_color;
     const vec3 start = to_lattice(point.position);
     vec3 normal = -point.frame.normal;
-    if (solid_exit(start, result.cone.direction, diagonal_m / volume.voxel_m, voxel_cover(point.material.surface), result.origin, normal))
+    const float cover = voxel_cover(point.material.surface);
+    if (solid_exit(start, result.cone.direction, diagonal_m / volume.voxel_m, cover, result.origin, normal))
         result.middle = 0.5f * (start + result.origin);
     leave(frame_from_normal(-normal), lobes, result.cone, result);
     return result;
