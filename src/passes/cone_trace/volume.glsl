@@ -155,11 +155,16 @@ void leave_cascade(inout ConeWalk walk, bvec3 axis, float t) {
     walk.edge = mix(walk.edge, outer_edge, axis);
 }
 
+/// Where the cone leaves the texel of edge `edge` that holds it at `t`, a little past the border.
+float leaves_texel(ConeWalk walk, float edge, float t) {
+    const vec3 leaves = ((floor((walk.start + walk.slope * t) / edge) + 1.0f + least_step) * edge - walk.start) * walk.inverse;
+    return min(leaves.x, min(leaves.y, leaves.z));
+}
+
 /// Nothing in the texel that holds the way's position: axes of its level and finer ones go on from where the cone leaves
 /// it, at the level that fits there as far as that one's texels lie within this texel.
 void leave_texel(inout ConeWalk walk, float texel_edge, float t) {
-    const vec3 leaves = ((floor((walk.start + walk.slope * t) / texel_edge) + 1.0f + least_step) * texel_edge - walk.start) * walk.inverse;
-    const float onward = min(leaves.x, min(leaves.y, leaves.z));
+    const float onward = leaves_texel(walk, texel_edge, t);
     const uint width = uint(onward * walk.radius);
     const float fitting = width == 0u ? 1.0f : float(2u << findMSB(width));
     const bvec3 passes = bvec3(uvec3(lessThan(walk.next, vec3(onward))) & uvec3(lessThanEqual(walk.edge, vec3(texel_edge))));
@@ -191,13 +196,20 @@ bool step_on(inout ConeWalk walk, float t, out bvec3 axis, out uint level) {
     return asked == level;
 }
 
+// What a look finds.
+const uint missed = 0u, met = 1u, met_later = 2u;
+
 /// The layer is done with once something of it was met. An axis goes to the coarser level where its next layer begins one
 /// there, so that each layer counts once.
-void leave_look(inout ConeWalk walk, bvec3 axis, float t, bool met) {
+void leave_look(inout ConeWalk walk, bvec3 axis, float t, uint found) {
+    if (found == met_later) {
+        walk.next = mix(walk.next, vec3(leaves_texel(walk, dot(vec3(axis), walk.edge), t)), axis);
+        return;
+    }
     const vec3 walked = (walk.start + walk.slope * t) / walk.edge;
     const vec3 layer = floor(walked);
     const vec3 ahead = walked + walk.look;
-    const bvec3 leaves = bvec3(uvec3(met) | uvec3(greaterThanEqual(ahead, layer + 1.0f)));
+    const bvec3 leaves = bvec3(uvec3(found == met) | uvec3(greaterThanEqual(ahead, layer + 1.0f)));
     const bvec3 coarser = bvec3(uvec3(leaves) & uvec3(greaterThanEqual(vec3(t * walk.radius), walk.edge)) &
                                 uvec3(lessThan(walk.edge, vec3(coarsest_edge(walk)))) & uvec3(equal(fract(0.5f * (layer + 1.0f)), vec3(0.0f))));
     const vec3 scale = mix(vec3(1.0f), vec3(2.0f), coarser);
@@ -212,8 +224,9 @@ struct ConeResult {
     float cover;
 };
 
-/// What the cone meets of the layer it looks at, if it does ahead of its origin and within its reach.
-bool meet_layer(ConeWalk walk, bvec3 axis, float t, uint level, inout ConeResult result) {
+/// What the cone meets of the layer it looks at, if it does ahead of its origin and within its reach. A face deeper than
+/// the cone goes in this texel is left to a look there: here interpolation shows the ends of what stands elsewhere.
+uint meet_layer(ConeWalk walk, bvec3 axis, float t, uint level, inout ConeResult result) {
     const float edge = dot(vec3(axis), walk.edge);
     const float start = dot(vec3(axis), walk.start);
     const bool turned = any(bvec3(axis.x && walk.backward.x, axis.y && walk.backward.y, axis.z && walk.backward.z));
@@ -226,17 +239,18 @@ bool meet_layer(ConeWalk walk, bvec3 axis, float t, uint level, inout ConeResult
     const vec3 middle = vec3(turned ? walk.wide - forward_middle : forward_middle);
     const vec3 at = corner + face_coordinates(mix(walk.origin + walk.direction * t, middle, axis), edge, float(level));
     const vec4 seen = textureLod(voxel_faces_texture, at, mip);
-    if (seen.a <= 0.0f) return false;
+    if (seen.a <= 0.0f) return missed;
     const float depth = clamp(textureLod(voxel_depths_texture, at, mip).r / seen.a, 0.0f, 1.0f);
     const float meets = ((layer + (turned ? 1.0f - depth : depth)) * edge - start) * dot(vec3(axis), walk.inverse);
-    if (!(meets >= walk.begin && meets <= walk.end)) return false;
+    if (!(meets >= walk.begin && meets <= walk.end)) return missed;
+    if (meets > leaves_texel(walk, edge, t)) return met_later;
     const vec3 place = corner + face_coordinates(mix(walk.origin + walk.direction * meets, middle, axis), edge, float(level));
     const vec4 face = textureLod(voxel_faces_texture, place, mip);
-    if (face.a <= 0.0f) return false;
+    if (face.a <= 0.0f) return missed;
     const float gained = min(face.a, 1.0f - result.cover);
     result.radiance += face.rgb * (gained / face.a);
     result.cover += gained;
-    return true;
+    return met;
 }
 
 /// `origin` and `reach` in finest voxels; `direction` unit.
@@ -249,8 +263,7 @@ ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float r
         bvec3 axis;
         uint level;
         if (!step_on(walk, t, axis, level)) continue;
-        const bool met = meet_layer(walk, axis, t, level, result);
-        leave_look(walk, axis, t, met);
+        leave_look(walk, axis, t, meet_layer(walk, axis, t, level, result));
     }
     result.radiance *= volume.radiance_unit;
     return result;

@@ -39,7 +39,8 @@ vec3 lights_illuminance(VoxelFace face, uint cell) {
 
 void main() {
     uint record;
-    if (!lit_record(push.face, linear_invocation(), record)) return;
+    bool enclosed;
+    if (!lit_record(push.face, linear_invocation(), record, enclosed)) return;
     const uint index = record * voxel_faces + push.face;
     const vec3 before = push.add != 0u ? illuminance[index].rgb : vec3(0.0f);
     illuminance[index] = vec4(before + lights_illuminance(voxel_face(push.grid, record, push.face), record_cell[record]), 0.0f);

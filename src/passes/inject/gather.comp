@@ -28,8 +28,10 @@ void main() {
     const uint lane = gl_LocalInvocationID.x;
     const uint cone = gl_LocalInvocationID.y;
     uint record;
-    const bool listed = lit_record(push.face, linear_group() * gather_faces_a_group + lane, record);
-    if (listed) {
+    bool enclosed;
+    const bool listed = lit_record(push.face, linear_group() * gather_faces_a_group + lane, record, enclosed);
+    arriving[cone][lane] = vec3(0.0f);
+    if (listed && !enclosed) {
         const VoxelFace face = voxel_face(push.grid, record, push.face);
         arriving[cone][lane] = light_of_cone(cone_origin(face.position, face.normal, exp2(float(push.cascade))), face.normal, cone);
     }

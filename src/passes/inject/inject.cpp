@@ -63,7 +63,7 @@ Result<void> add_list_faces(graph::Graph& graph, gpu::Pipelines& pipelines, cons
         },
         [cascade, list = *pipeline](PassContext& context) {
             const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
-            context.commands.dispatch_indirect(*list, gpu::NoPushConstants{},
+            context.commands.dispatch_indirect(*list, *cascade.constants,
                                                {numbers, context.buffer(cascade.surfaces.cells),
                                                 context.buffer(cascade.surfaces.records), context.buffer(cascade.illuminance),
                                                 context.buffer(cascade.gathered), context.buffer(cascade.lit_faces)},

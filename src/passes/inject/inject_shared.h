@@ -23,6 +23,7 @@ struct LitFacesHeader {
     uvec4 workgroups_done;   // x: of those that make the lists
 };
 SHADING_CONST uint gather_faces_a_group = 32u;
+SHADING_CONST uint lit_record_enclosed = 0x80000000u;  // beside the record: solids enclose the face
 
 /// Work on the occupied voxels of one level of the last cascade.
 struct FilterConstants {

@@ -1,12 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Lists the faces that light can leave, for each of the six sides, and takes the light off those that stay dark.
-#include "passes/inject/record_work.glsl"
+#include "passes/inject/enclosed_faces.glsl"
 
 layout(local_size_y = voxel_faces) in;
 layout(set = 0, binding = 19, std430) writeonly buffer Illuminance { vec4 illuminance[]; };
 layout(set = 0, binding = 22, std430) writeonly buffer Gathered { vec4 gathered[]; };
 layout(set = 0, binding = 25, std430) buffer LitFaces { LitFacesHeader header; uint lit_records[]; };
+
+layout(push_constant) uniform Push { InjectConstants push; };
 
 shared uint listed[voxel_faces];  // by this workgroup
 shared uint list_first[voxel_faces];
@@ -44,7 +46,10 @@ void main() {
     if (gl_LocalInvocationIndex == 0u)
         last_to_list = record < voxel_header.record_count &&
                        atomicAdd(header.workgroups_done.x, 1u) == (voxel_header.record_count - 1u) / 64u;
-    if (lit) lit_records[face * voxel_header.record_count + list_first[face] + place] = record;
+    if (lit) {
+        const uint entry = is_enclosed(ivec3(record_voxel(record, push.grid.size)), face, int(push.grid.size)) ? record | lit_record_enclosed : record;
+        lit_records[face * voxel_header.record_count + list_first[face] + place] = entry;
+    }
     barrier();
     if (last_to_list && gl_LocalInvocationID.x == 0u) write_arguments(face);
 }

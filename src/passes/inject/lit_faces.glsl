@@ -8,11 +8,14 @@
 layout(set = 0, binding = 16, std430) readonly buffer Numbers { VoxelHeader voxel_header; };
 layout(set = 0, binding = 25, std430) readonly buffer LitFaces { LitFacesHeader lit_header; uint lit_records[]; };
 
-/// The record of entry `place` in a face's list; false past its end.
-bool lit_record(uint face, uint place, out uint record) {
+/// The record of entry `place` in a face's list; false past its end. `enclosed`: within a solid, where only lights reach it.
+bool lit_record(uint face, uint place, out uint record, out bool enclosed) {
     record = 0u;
+    enclosed = false;
     if (place >= lit_header.groups[face].w) return false;
-    record = lit_records[face * voxel_header.record_count + place];
+    const uint entry = lit_records[face * voxel_header.record_count + place];
+    record = entry & ~lit_record_enclosed;
+    enclosed = entry != record;
     return true;
 }
 

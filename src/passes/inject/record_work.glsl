@@ -6,7 +6,7 @@
 #include "passes/voxelize/voxel_record.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 16, std430) readonly buffer Numbers { VoxelHeader voxel_header; };
+layout(set = 0, binding = 16, std430) readonly buffer Numbers { VoxelHeader voxel_header; uint voxel_number[]; };
 
 /// In the texture of all faces.
 ivec3 face_texel(uvec3 voxel, uint face, uint size, uint cascade) {
