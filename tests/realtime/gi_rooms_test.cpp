@@ -103,17 +103,17 @@ TEST_P(GiDividedRooms, TheSealedDarkRoomStaysDarkAndTheLitOneBright) {
     EXPECT_LE(leak, room * measured_leak);
     EXPECT_LE(std::abs(1 - share), room * std::abs(1 - measured_lit));
     EXPECT_GE(share, 0.85);
-    // Asked is 3 % through one voxel, which is met, and 1 % through two, which is missed: there only what was
-    // measured bounds the leak.
-    if (layers == 1) {
-        EXPECT_LE(leak, 0.03);
+    // Asked is 3 % through one voxel, which is met, and 1 % through two, which is met at 32³; at finer grids, where the wall
+    // is thinner, only what was measured bounds the leak.
+    if (layers == 1 || voxels == 32) {
+        EXPECT_LE(leak, layers == 1 ? 0.03 : 0.01);
     }
 }
 INSTANTIATE_TEST_SUITE_P(Walls, GiDividedRooms,
-                         ::testing::Values(Divided{32, 1, 0, 0.0178, 0.958}, Divided{32, 1, 0.5f, 0.0195, 0.904},
-                                           Divided{32, 2, 0, 0.0147, 0.950}, Divided{32, 2, 0.5f, 0.0149, 0.960},
-                                           Divided{64, 2, 0, 0.0190, 0.934}, Divided{64, 2, 0.5f, 0.0194, 0.940},
-                                           Divided{128, 2, 0, 0.0203, 0.935}));
+                         ::testing::Values(Divided{32, 1, 0, 0.0148, 0.953}, Divided{32, 1, 0.5f, 0.0159, 0.911},
+                                           Divided{32, 2, 0, 0.0091, 0.942}, Divided{32, 2, 0.5f, 0.0094, 0.951},
+                                           Divided{64, 2, 0, 0.0111, 0.925}, Divided{64, 2, 0.5f, 0.0115, 0.936},
+                                           Divided{128, 2, 0, 0.0111, 0.940}));
 
 }  // namespace
 }  // namespace heliodon::tests

@@ -15,7 +15,9 @@ constexpr std::pair<std::string_view, double FrameSteps::*> step_of_passes[] = {
     {"shadow", &FrameSteps::shadow_map_ms},    {"voxelize", &FrameSteps::voxelize_ms},
     {"inject", &FrameSteps::filter_ms},        {"gather", &FrameSteps::filter_ms},
     {"radiance", &FrameSteps::filter_ms},      {"filter", &FrameSteps::filter_ms},
-    {"cone trace", &FrameSteps::cone_trace_ms}};
+    {"occupancy", &FrameSteps::filter_ms},     {"cone trace", &FrameSteps::cone_trace_ms},
+    {"trace", &FrameSteps::cone_trace_ms},     {"weigh pixels", &FrameSteps::cone_trace_ms},
+    {"clear pixel lists", &FrameSteps::cone_trace_ms}};
 
 }  // namespace
 
