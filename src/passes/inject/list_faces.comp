@@ -47,8 +47,8 @@ void main() {
         last_to_list = record < voxel_header.record_count &&
                        atomicAdd(header.workgroups_done.x, 1u) == (voxel_header.record_count - 1u) / 64u;
     if (lit) {
-        const uint entry = is_enclosed(ivec3(record_voxel(record, push.grid.size)), face, int(push.grid.size)) ? record | lit_record_enclosed : record;
-        lit_records[face * voxel_header.record_count + list_first[face] + place] = entry;
+        const bool enclosed = is_enclosed(ivec3(record_voxel(record, push.grid.size)), face, int(push.grid.size));
+        lit_records[face * voxel_header.record_count + list_first[face] + place] = record | (enclosed ? lit_record_enclosed : 0u);
     }
     barrier();
     if (last_to_list && gl_LocalInvocationID.x == 0u) write_arguments(face);
