@@ -15,5 +15,4 @@ void main() {
                                            : spread_groups(header.tile_count + (push.triangle_count + 63u) / 64u);
     header.record_count = min(header.record_demand, push.record_capacity);
     header.record_groups = spread_groups((header.record_count + 63u) / 64u);
-    header.face_groups = spread_groups((header.record_count * voxel_faces + 63u) / 64u);
 }

@@ -30,7 +30,6 @@ struct VoxelHeader {
     uint tile_count;     // of them, those that found room
     uvec4 tile_groups;   // VkDispatchIndirectCommand: one workgroup a tile
     uvec4 record_groups; // VkDispatchIndirectCommand: groups of 64 invocations, one a record
-    uvec4 face_groups;   // VkDispatchIndirectCommand: groups of 64 invocations, one a record's face
     uint carried_without_room;  // voxels that had found no room where the carried ones come from
     uint carried_tile_demand;   // the most tiles that were wanted there
     uint padding0;
