@@ -132,7 +132,7 @@ Result<void> FrameRenderer::record_volume_bounces(gpu::Commands& commands) {
 Result<void> FrameRenderer::record_volume(gpu::Commands& commands, const FrameSample& sample, std::size_t batch) {
     if (sample.count > 0) return {};  // converged before
     if (voxelize_) {
-        if (auto done = voxels_.record_surfaces(commands, &timestamps_); !done) return done;
+        if (auto done = voxels_.record_surfaces(commands, &timestamps_, settings_.bounces == 0); !done) return done;
         surfaces_voxelized();
     }
     if (relight_) {
@@ -155,7 +155,7 @@ void FrameRenderer::surfaces_voxelized() {
 
 Result<bool> FrameRenderer::surfaces_find_room() {
     auto done = device_.run("voxelize", [&](gpu::Commands& commands) {
-        if (auto recorded = voxels_.record_surfaces(commands, nullptr); !recorded) commands.fail("voxelize", recorded.error().text());
+        if (auto recorded = voxels_.record_surfaces(commands, nullptr, settings_.bounces == 0); !recorded) commands.fail("voxelize", recorded.error().text());
     });
     if (!done) return tl::unexpected(done.error());
     surfaces_voxelized();

@@ -142,7 +142,8 @@ Result<void> VoxelVolume::make_buffers() {
                                       .and_then([&] { return make(cascade->shown_levels, "shown levels", sizes.levels); })
                                       .and_then([&] { return make(cascade->lit_faces, "lit faces", passes::lit_faces_bytes(record_capacity_)); })
                                       .and_then([&] { return make(cascade->illuminance, "voxel illuminance", face_bytes); })
-                                      .and_then([&] { return make(cascade->gathered, "gathered light", face_bytes); });
+                                      .and_then([&] { return make(cascade->gathered, "gathered light", face_bytes); })
+                                      .and_then([&] { return make(cascade->shown_gathered, "shown gathered light", face_bytes); });
         if (!done) return done;
         cascades_.push_back(std::move(cascade));
     }
@@ -310,8 +311,10 @@ Result<void> VoxelVolume::upload_data(shading::VolumeData data) {
     return device_.upload(data_buffer_, std::span<const shading::VolumeData>(&all, 1));
 }
 
-Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps) {
+Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, bool keep_light) {
     if (settings_.anew) forget_surfaces();
+    // What is shown must be what gathered last, of voxels that are still of the same size.
+    keeps_light_ = keep_light && !outdated_ && shown_.lattice == data_.lattice && shown_.voxel_m == data_.voxel_m;
     if (auto done = steps_->keep_shown.execute(commands, timestamps); !done) return done;
     outdated_ = true;
     for (std::size_t cascade = 0; cascade < cascades_.size(); ++cascade)
@@ -326,6 +329,7 @@ Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestam
     grid.emission_unit = emission_unit_;
     for (passes::VoxelizeInputs* inputs : {&cascade.still, &cascade.entered, &cascade.moving}) inputs->grid = grid;
     const glm::ivec3 shift = grid.base - cascade.base;
+    cascade.constants.shift = shift;
     const int all_before = work_.all, entered_before = work_.entered;
     const auto keep = [&]() -> Result<void> {
         if (std::exchange(cascade.kept, true)) return {};
@@ -385,7 +389,9 @@ Result<void> VoxelVolume::record_bounce(gpu::Commands& commands, gpu::Timestamps
         return show(steps_->reflect, commands, timestamps);
     }
     for (auto& cascade : cascades_) {
-        cascade->gather_faces = gather->axis && cascade->gathered_known ? 3u << 2 * *gather->axis : 63u;
+        const std::uint32_t every_face = (1u << shading::voxel_faces) - 1;
+        cascade->gather_faces.all = gather->axis ? 3u << 2 * *gather->axis : every_face;
+        cascade->gather_faces.unlit = cascade->gathered_known ? 0 : every_face & ~cascade->gather_faces.all;
         cascade->gathered_known = true;
         cascade->constants.gather_shift = gather->shift;
         cascade->constants.gather_weight = gather->weight;

@@ -37,7 +37,8 @@ public:
     [[nodiscard]] Result<void> prepare(const Source& source, const VoxelSettings& settings, glm::vec3 eye);
     /// Brings the voxelized surfaces up to date: what never moved is voxelized once, and where a cascade moved, only the
     /// voxels that entered it. The texture shows those before until the next emission or bounce.
-    [[nodiscard]] Result<void> record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps);
+    /// `keep_light`: faces that were there before keep the light that they gathered.
+    [[nodiscard]] Result<void> record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, bool keep_light);
     /// Lights voxels with one batch of lights; `add`: to what those before gave.
     [[nodiscard]] Result<void> record_lights(gpu::Commands& commands, gpu::Timestamps* timestamps, std::uint32_t light_first,
                                              std::uint32_t light_count, bool add);
@@ -48,7 +49,7 @@ public:
     struct Gather {
         glm::vec2 shift{0};   ///< of diffuse_cone()
         float weight = 1.0f;  ///< against what was gathered before
-        std::optional<int> axis;  ///< by the faces across it alone, unless a cascade was voxelized since it last gathered
+        std::optional<int> axis;  ///< by the faces across it alone and those that have not gathered yet
     };
     [[nodiscard]] Result<void> record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps,
                                              const std::optional<Gather>& gather);
@@ -88,12 +89,12 @@ public:
 private:
     struct Cascade {
         gpu::Buffer numbers, cells, records, tiles, levels, lit_faces, illuminance, gathered;
-        gpu::Buffer shown_numbers, shown_cells, shown_levels;
+        gpu::Buffer shown_numbers, shown_cells, shown_levels, shown_gathered;
         gpu::Buffer still_numbers, still_cells, still_records;  ///< surfaces that never moved: VoxelHeader, …
         shading::InjectConstants constants{};
         passes::VoxelizeInputs still, entered, moving;
-        std::uint32_t gather_faces = 0;  ///< the next gathering is for, a bit each
-        bool gathered_known = false;     ///< each face has gathered since the surfaces were voxelized
+        passes::GatherFaces gather_faces;  ///< the next gathering is for
+        bool gathered_known = false;       ///< each face has gathered
         glm::ivec3 base{0};     ///< where the cascade lay when it was voxelized
         bool known = false;     ///< the surfaces that never moved are voxelized, at `base`:
         bool kept = false;      ///< they are in still_numbers, …
@@ -133,6 +134,7 @@ private:
     std::uint32_t record_capacity_ = 0, tile_capacity_ = 0;
     bool remake_ = true, emits_ = false, passes_known_ = false;
     bool outdated_ = false;  // the texture shows surfaces as they were before they were voxelized anew
+    bool keeps_light_ = false;  // what those gathered goes over to the new ones
     std::uint64_t placement_revision_ = 0, texture_revision_ = 0, listed_revision_ = ~0ull, loaded_revision_ = ~0ull;
     Work work_;
     std::vector<std::unique_ptr<Cascade>> cascades_;

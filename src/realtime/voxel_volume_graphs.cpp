@@ -46,7 +46,9 @@ VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
         passes::InjectCascade one;
         one.constants = &cascade->constants;
         one.outdated = &outdated_;
-        one.shown = {import(cascade->shown_numbers), import(cascade->shown_cells), import(cascade->shown_levels)};
+        one.keeps_light = &keeps_light_;
+        one.shown = {import(cascade->shown_numbers), import(cascade->shown_cells), import(cascade->shown_levels),
+                     import(cascade->shown_gathered)};
         one.surfaces = {import(cascade->numbers), import(cascade->cells), import(cascade->records), import(cascade->tiles),
                         import(cascade->levels), data_.size, record_capacity_, tile_capacity_};
         one.lit_faces = import(cascade->lit_faces);
@@ -68,7 +70,7 @@ Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& v
     for (const auto& one : volume.cascades)
         for (const graph::BufferHandle buffer : {one.surfaces.numbers, one.surfaces.cells, one.surfaces.records,
                                                  one.surfaces.tiles, one.surfaces.levels, one.lit_faces, one.illuminance, one.gathered,
-                                                 one.shown.numbers, one.shown.cells, one.shown.levels})
+                                                 one.shown.numbers, one.shown.cells, one.shown.levels, one.shown.gathered})
             volume.graph.export_buffer(buffer);
     for (const passes::CarriedSurfaces& still : volume.still)
         for (const graph::BufferHandle buffer : {still.numbers, still.cells, still.records}) volume.graph.export_buffer(buffer);
@@ -89,6 +91,7 @@ Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& v
         executor.bind(one.shown.numbers, cascade.shown_numbers);
         executor.bind(one.shown.cells, cascade.shown_cells);
         executor.bind(one.shown.levels, cascade.shown_levels);
+        executor.bind(one.shown.gathered, cascade.shown_gathered);
         executor.bind(one.lit_faces, cascade.lit_faces);
         executor.bind(one.illuminance, cascade.illuminance);
         executor.bind(one.gathered, cascade.gathered);

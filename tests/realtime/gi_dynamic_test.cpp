@@ -121,6 +121,18 @@ TEST_F(GiDynamic, RevoxelizeAlwaysGivesTheSamePictureAndVoxelizesEverythingEachF
     EXPECT_EQ(work.moving, 0);
 }
 
+TEST_F(GiDynamic, WhatIsVoxelizedAnewKeepsTheLightThatItGathered) {
+    // Each frame gathers for the faces across one axis: were the others' light lost, or gathered anew, frames would differ.
+    Renderer once = new_renderer(), always = new_renderer();
+    for (int step = 0; step < 5; ++step) {
+        change_settings(scene, [](RenderSettings& s) { s.bounces = 0, s.revoxelize = Revoxelize::once; });
+        const auto expected = frame(once, scene, camera);
+        change_settings(scene, [](RenderSettings& s) { s.revoxelize = Revoxelize::always; });
+        EXPECT_EQ(difference(frame(always, scene, camera), expected), 0) << step;
+    }
+    EXPECT_EQ(always->voxels().work().all, once->voxels().work().all + 4);
+}
+
 TEST_F(GiDynamic, OnlyWhatMovesIsVoxelizedAndTheSumsAreThoseOfAll) {
     Renderer live = new_renderer();
     frame(live, scene, camera);
@@ -178,8 +190,8 @@ TEST_F(GiDynamic, LightOfAllBouncesComesWithinAPercentInAFewFrames) {
         int stated;  // frames
         std::function<void()> change;
     };
-    // What moves gathers for whole in the next frame; of a light alone a third of the faces learn in each. Where little
-    // light is left, more of what was there before has to be gone.
+    // Faces that are new gather in the next frame, of the others a third in each. Where little light is left, more of what
+    // was there before has to be gone.
     const std::vector<Change> changes{
         {"a crate and a light move", 12, [&] { place(3); }},
         {"a light moves", 12, [&] { scene.set_transform(light, {.translation = {0.3f, 0.9f, -0.1f}}); }},

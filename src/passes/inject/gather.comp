@@ -7,7 +7,7 @@
 #include "passes/inject/lit_faces.glsl"
 
 layout(local_size_x = gather_faces_a_group, local_size_y = cones_per_set) in;
-layout(set = 0, binding = 19, std430) buffer Gathered { vec4 gathered[]; };
+layout(set = 0, binding = 19, std430) buffer Gathered { vec4 gathered[]; };  // w: 1 once there is any
 layout(push_constant) uniform Push { InjectConstants push; };
 
 shared vec3 arriving[cones_per_set][gather_faces_a_group];
@@ -30,17 +30,19 @@ void main() {
     uint record;
     bool enclosed;
     const bool listed = lit_record(push.face, linear_group() * gather_faces_a_group + lane, record, enclosed);
+    const uint index = record * voxel_faces + push.face;
+    const vec4 before = listed ? gathered[index] : vec4(0.0f);
+    const bool wanted = listed && (push.unlit_only == 0u || before.w == 0.0f);
     arriving[cone][lane] = vec3(0.0f);
-    if (listed && !enclosed) {
+    if (wanted && !enclosed) {
         const VoxelFace face = voxel_face(push.grid, record, push.face);
         arriving[cone][lane] = light_of_cone(cone_origin(face.position, face.normal, exp2(float(push.cascade))), face.normal, cone);
     }
     barrier();
-    if (!listed || cone != 0u) return;
+    if (!wanted || cone != 0u) return;
     vec3 light = vec3(0.0f);
     for (uint i = 0u; i < cones_per_set; ++i) light += arriving[i][lane];  // in one order, run for run
     light *= pi;
-    const uint index = record * voxel_faces + push.face;
-    if (push.gather_weight < 1.0f) light = mix(gathered[index].rgb, light, push.gather_weight);
-    gathered[index] = vec4(light, 0.0f);
+    if (push.gather_weight < 1.0f && before.w > 0.0f) light = mix(before.rgb, light, push.gather_weight);
+    gathered[index] = vec4(light, enclosed ? 0.0f : 1.0f);
 }

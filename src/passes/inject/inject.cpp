@@ -27,8 +27,9 @@ shading::FilterConstants level_constants(const InjectCascade& cascade, std::uint
 
 /// One dispatch a side over its list of faces, of the sides in `sides` (a bit each).
 void dispatch_lit_faces(PassContext& context, const gpu::ComputePipeline& pipeline, const InjectCascade& cascade,
-                        const std::vector<gpu::Binding>& bindings, VkDeviceSize groups, std::uint32_t sides) {
+                        const std::vector<gpu::Binding>& bindings, VkDeviceSize groups, std::uint32_t sides, bool unlit_only = false) {
     shading::InjectConstants constants = *cascade.constants;
+    constants.unlit_only = unlit_only ? 1 : 0;
     for (constants.face = 0; constants.face < shading::voxel_faces; ++constants.face)
         if ((sides >> constants.face & 1u) != 0)
             context.commands.dispatch_indirect(pipeline, constants, bindings, context.buffer(cascade.lit_faces),
@@ -44,11 +45,36 @@ VkDeviceSize lit_faces_bytes(std::uint32_t record_capacity) {
 Result<void> add_list_faces(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade) {
     auto pipeline = pipelines.compute("passes/inject/list_faces.comp");
     if (!pipeline) return tl::unexpected(pipeline.error());
+    auto find_kept = pipelines.compute("passes/inject/find_kept.comp");
+    if (!find_kept) return tl::unexpected(find_kept.error());
+    const graph::BufferHandle sources =
+        graph.create_buffer({"sources of gathered light", VkDeviceSize{cascade.surfaces.record_capacity} * sizeof(std::uint32_t)});
     graph.add_pass(
         "voxelize list clear", PassKind::transfer,
-        [&](PassBuilder& pass) { pass.write(cascade.lit_faces, Usage::transfer_write); },
-        [lit_faces = cascade.lit_faces](PassContext& context) {
+        [&](PassBuilder& pass) {
+            pass.write(cascade.lit_faces, Usage::transfer_write);
+            pass.write(sources, Usage::transfer_write);
+        },
+        [lit_faces = cascade.lit_faces, sources](PassContext& context) {
             context.commands.fill(context.buffer(lit_faces), 0, 0, sizeof(shading::LitFacesHeader));
+            context.commands.fill(context.buffer(sources), 0);
+        });
+    graph.add_pass(
+        "voxelize find kept", PassKind::compute,
+        [&](PassBuilder& pass) {
+            pass.read(cascade.shown.numbers, Usage::storage_read);
+            pass.read(cascade.shown.numbers, Usage::indirect);
+            pass.read(cascade.shown.cells, Usage::storage_read);
+            pass.read(cascade.surfaces.numbers, Usage::storage_read);
+            pass.read_write(sources, Usage::storage_read_write);
+        },
+        [cascade, sources, find = *find_kept](PassContext& context) {
+            if (!*cascade.keeps_light) return;
+            const gpu::Buffer& kept = context.buffer(cascade.shown.numbers);
+            context.commands.dispatch_indirect(*find, *cascade.constants,
+                                               {kept, context.buffer(cascade.shown.cells), context.buffer(cascade.surfaces.numbers),
+                                                context.buffer(sources)},
+                                               kept, record_groups);
         });
     graph.add_pass(
         "voxelize list", PassKind::compute,
@@ -57,15 +83,18 @@ Result<void> add_list_faces(graph::Graph& graph, gpu::Pipelines& pipelines, cons
             pass.read(cascade.surfaces.numbers, Usage::indirect);
             pass.read(cascade.surfaces.cells, Usage::storage_read);
             pass.read(cascade.surfaces.records, Usage::storage_read);
+            pass.read(cascade.shown.gathered, Usage::storage_read);
+            pass.read(sources, Usage::storage_read);
             pass.read_write(cascade.illuminance, Usage::storage_read_write);
             pass.read_write(cascade.gathered, Usage::storage_read_write);
             pass.read_write(cascade.lit_faces, Usage::storage_read_write);
         },
-        [cascade, list = *pipeline](PassContext& context) {
+        [cascade, sources, list = *pipeline](PassContext& context) {
             const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
             context.commands.dispatch_indirect(*list, *cascade.constants,
                                                {numbers, context.buffer(cascade.surfaces.cells),
                                                 context.buffer(cascade.surfaces.records), context.buffer(cascade.illuminance),
+                                                context.buffer(cascade.shown.gathered), context.buffer(sources),
                                                 context.buffer(cascade.gathered), context.buffer(cascade.lit_faces)},
                                                numbers, record_groups);
         });
@@ -79,6 +108,8 @@ void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade) {
             pass.read(cascade.surfaces.numbers, Usage::transfer_read);
             pass.read(cascade.surfaces.cells, Usage::transfer_read);
             pass.read(cascade.surfaces.levels, Usage::transfer_read);
+            pass.read(cascade.gathered, Usage::transfer_read);
+            pass.write(cascade.shown.gathered, Usage::transfer_write);
             pass.write(cascade.shown.numbers, Usage::transfer_write);
             pass.write(cascade.shown.cells, Usage::transfer_write);
             pass.write(cascade.shown.levels, Usage::transfer_write);
@@ -91,6 +122,7 @@ void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade) {
             keep(cascade.surfaces.numbers, cascade.shown.numbers);
             keep(cascade.surfaces.cells, cascade.shown.cells);
             keep(cascade.surfaces.levels, cascade.shown.levels);
+            if (*cascade.keeps_light) keep(cascade.gathered, cascade.shown.gathered);
         });
 }
 
@@ -195,7 +227,8 @@ Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const Sc
                                                    {21, *volume.data},
                                                    {22, gpu::Binding(context.image(images.depths), volume.trilinear)},
                                                    {23, *volume.occupancy}});
-            dispatch_lit_faces(context, *gather, cascade, bindings, lit_gather_groups, *cascade.gather_faces);
+            dispatch_lit_faces(context, *gather, cascade, bindings, lit_gather_groups, cascade.gather_faces->all);
+            dispatch_lit_faces(context, *gather, cascade, bindings, lit_gather_groups, cascade.gather_faces->unlit, true);
         });
     return {};
 }

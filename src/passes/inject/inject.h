@@ -11,6 +11,13 @@ namespace heliodon::passes {
 struct ShownVoxels {
     graph::BufferHandle numbers;  ///< VoxelHeader
     graph::BufferHandle cells, levels;
+    graph::BufferHandle gathered;  ///< InjectCascade::gathered of those voxels
+};
+
+/// Which of the six faces gather next, a bit each.
+struct GatherFaces {
+    std::uint32_t all = 0;    ///< of all voxels
+    std::uint32_t unlit = 0;  ///< where they have not gathered yet
 };
 
 /// One cascade as injection works on it.
@@ -18,19 +25,21 @@ struct InjectCascade {
     const shading::InjectConstants* constants = nullptr;  ///< the owner keeps them at one address and up to date
     /// The texture still shows surfaces that have been voxelized anew since.
     const bool* outdated = nullptr;
+    /// The light that faces gathered goes with them from the voxels that are shown to those that surfaces fill now.
+    const bool* keeps_light = nullptr;
     ShownVoxels shown;
     VoxelSurfaces surfaces;
     graph::BufferHandle lit_faces;    ///< LitFacesHeader and the lists
-    const std::uint32_t* gather_faces = nullptr;  ///< which of the six faces the next gathering is for, a bit each
+    const GatherFaces* gather_faces = nullptr;  ///< the next gathering is for
     graph::BufferHandle illuminance;  ///< of the lights in lux: 16 bytes a record's face
-    graph::BufferHandle gathered;     ///< of the volume and the sky, as above
+    graph::BufferHandle gathered;     ///< of the volume and the sky, as above; w: 1 once a face has gathered
     bool isotropic = false;           ///< a voxel shows one value to all sides
 };
 
 /// Lists the faces that light can leave, once a cascade's surfaces are voxelized: of lit_faces_bytes().
 [[nodiscard]] Result<void> add_list_faces(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade);
 [[nodiscard]] VkDeviceSize lit_faces_bytes(std::uint32_t record_capacity);
-/// Keeps the lists of the voxels that the texture shows, unless they are kept already.
+/// Keeps the lists of the voxels that the texture shows, and what they gathered, unless they are kept already.
 void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade);
 /// If the texture is outdated, empties what it shows of a cascade; `levels`: its coarse levels too.
 [[nodiscard]] Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,

@@ -13,6 +13,8 @@ struct InjectConstants {
     vec2 gather_shift;   // of diffuse_cone()
     float gather_weight; // of what is gathered now against what was before
     uint face;           // which of the six faces of the listed records, where a pass takes one of them
+    ivec3 shift;         // voxel v of this grid was voxel v + shift of the one whose gathered light is kept
+    uint unlit_only;     // gather: for faces alone that have not gathered yet
 };
 
 /// First words of the lists of faces that light can leave: of each of the six faces, VkDispatchIndirectCommand, and

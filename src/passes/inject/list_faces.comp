@@ -1,10 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Lists the faces that light can leave, for each of the six sides, and takes the light off those that stay dark.
+// Lists the faces that light can leave, for each of the six sides, and takes the light off those that stay dark. What the
+// same faces of the same voxels had gathered before they keep.
 #include "passes/inject/enclosed_faces.glsl"
 
 layout(local_size_y = voxel_faces) in;
 layout(set = 0, binding = 19, std430) writeonly buffer Illuminance { vec4 illuminance[]; };
+layout(set = 0, binding = 20, std430) readonly buffer Kept { vec4 kept[]; };
+layout(set = 0, binding = 21, std430) readonly buffer Sources { uint source[]; };  // find_kept.comp
 layout(set = 0, binding = 22, std430) writeonly buffer Gathered { vec4 gathered[]; };
 layout(set = 0, binding = 25, std430) buffer LitFaces { LitFacesHeader header; uint lit_records[]; };
 
@@ -16,13 +19,15 @@ shared bool last_to_list;
 
 bool vanishes(uint first) { return (records[first] | records[first + 1u] | records[first + 2u]) == 0u; }
 
-bool reflects(uint index) {
+bool reflects(uint record, uint face) {
+    const uint index = record * voxel_faces + face;
     const uint first = index * voxel_field_count;
-    if (records[first + voxel_field_area] == 0u) return false;  // nothing reads its light
-    if (!vanishes(first + voxel_field_albedo) && !vanishes(first + voxel_field_normal)) return true;
-    illuminance[index] = vec4(0.0f);
-    gathered[index] = vec4(0.0f);
-    return false;
+    const bool there = records[first + voxel_field_area] != 0u;
+    const bool lit = there && !vanishes(first + voxel_field_albedo) && !vanishes(first + voxel_field_normal);
+    if (there && !lit) illuminance[index] = vec4(0.0f);  // of the others nothing reads it
+    const uint from = lit ? source[record] : 0u;
+    gathered[index] = from != 0u ? kept[(from - 1u) * voxel_faces + face] : vec4(0.0f);
+    return lit;
 }
 
 void write_arguments(uint face) {
@@ -37,7 +42,7 @@ void main() {
     if (gl_LocalInvocationID.x == 0u) listed[face] = 0u;
     barrier();
     uint place = 0u;
-    const bool lit = record < voxel_header.record_count && reflects(record * voxel_faces + face);
+    const bool lit = record < voxel_header.record_count && reflects(record, face);
     if (lit) place = atomicAdd(listed[face], 1u);
     barrier();
     if (gl_LocalInvocationID.x == 0u && listed[face] > 0u) list_first[face] = atomicAdd(header.groups[face].w, listed[face]);
