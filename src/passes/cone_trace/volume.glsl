@@ -123,8 +123,8 @@ ConeWalk begin_walk(vec3 origin, vec3 direction, float tan_half_angle, float rea
     const vec3 exits = (walk.wide - walk.start) * walk.inverse;
     walk.end = min(reach, min(exits.x, min(exits.y, exits.z)));
     // A texel is the mean over its edge and interpolation spreads it by another: it reaches 3/2 edges to each side. Where
-    // that is the cone's radius the level fits; the next one does from √2 times it on, to the nearest level.
-    walk.radius = tan_half_angle * (inversesqrt(2.0f) / 1.5f);
+    // that is the cone's radius the level fits; the next one, twice as wide, does where it is half of that.
+    walk.radius = tan_half_angle / 3.0f;
     // A cone that grazes a layer goes far along it, and looks at it once a voxel, so that what stands at the layer's near
     // side is seen before the cone has passed it by.
     walk.look = 1.0f / clamp(ceil(max(walk.slope.yzx, walk.slope.zxy) * walk.inverse), vec3(1.0f), vec3(most_looks));
