@@ -251,8 +251,14 @@ SHADING_FN KernelLightSample kernel_sample_light(SHADING_IN(LightData) light, ve
     return result;
 }
 
-/// One emitter, one direction to it; pdf and light account for the selection.
-SHADING_FN KernelLightSample kernel_sample_emitters(vec3 from, float u_select, vec2 u) {
+/// Probability with which kernel_sample_emitters, from there, selects this emitter.
+SHADING_FN float kernel_selection_probability(SHADING_IN(KernelEmitter) emitter, vec3 from, vec3 normal) {
+    return emitter.probability;
+}
+
+/// One emitter, one direction to it; pdf and light account for the selection. `normal` is the shading normal
+/// on the side that light must come from, or zero where light from both sides counts.
+SHADING_FN KernelLightSample kernel_sample_emitters(vec3 from, vec3 normal, float u_select, vec2 u) {
     SHADING_IN(KernelEmitter) emitter = fetch_emitter(kernel_select_emitter(u_select));
     KernelLightSample result;
     if (emitter.kind == kernel_emitter_light) {
@@ -262,13 +268,14 @@ SHADING_FN KernelLightSample kernel_sample_emitters(vec3 from, float u_select, v
     } else {
         result = kernel_sample_surface(emitter, from, u);
     }
-    result.pdf *= emitter.probability;
-    result.light = result.light / max(emitter.probability, 1.0e-30f);
+    const float probability = kernel_selection_probability(emitter, from, normal);
+    result.pdf *= probability;
+    result.light = result.light / max(probability, 1.0e-30f);
     return result;
 }
 
-/// Density with which light sampling would have picked the emissive surface that a ray from `from` hit.
-SHADING_FN float kernel_hit_pdf(SHADING_IN(KernelPoint) point, vec3 from) {
+/// Density with which light sampling, from `from` with `normal`, would have picked the emissive surface that a ray hit.
+SHADING_FN float kernel_hit_pdf(SHADING_IN(KernelPoint) point, vec3 from, vec3 normal) {
     const uint first = fetch_first_emitter(point.instance);
     if (first == kernel_no_emitter) {
         return 0.0f;
@@ -277,7 +284,8 @@ SHADING_FN float kernel_hit_pdf(SHADING_IN(KernelPoint) point, vec3 from) {
     if (emitter.kind == kernel_emitter_triangle) {
         emitter = fetch_emitter(first + point.primitive);
     }
-    return emitter.probability * kernel_surface_pdf(emitter, from, point.position, point.geometric_normal);
+    return kernel_selection_probability(emitter, from, normal) *
+           kernel_surface_pdf(emitter, from, point.position, point.geometric_normal);
 }
 
 #endif

@@ -120,7 +120,7 @@ struct KernelFrame {
     uint sky_columns;          // of the sky's sampling table
     uint sky_rows;
     uint scattered_emission;  // 0: no scattered ray can meet any light, so the last one need not be traced
-    uint padding;
+    uint sample_streams;      // independently scrambled sequences that a pixel's samples take turns in; at least 1
 };
 
 // -- the path
@@ -151,6 +151,8 @@ struct PathState {
     uint sample_reversed;
     vec3 direct;  // the part of it scattered at most once
     float eta_scale;  // the part of the throughput that is radiance's 1/eta² across boundaries
+    vec3 scatter_normal;  // at scatter_origin, as kernel_sample_emitters took it
+    float padding;
 };
 
 SHADING_END

@@ -32,6 +32,9 @@
 SHADING_FN vec2 kernel_random_pair(uint pixel_seed, uint sample_reversed, uint event, uint pair) {
     return kernel_sample_pair(sample_reversed, pixel_seed + (4u * event + pair) * 0x9e3779b9u);
 }
+SHADING_FN vec2 path_random_pair(SHADING_IN(PathState) path, uint event, uint pair) {
+    return kernel_random_pair(path.pixel_seed, path.sample_reversed, event, pair);
+}
 /// For decisions that come any number of times between two events.
 SHADING_FN float kernel_random_pass(uint pixel_seed, uint sample_reversed, uint pass) {
     return kernel_unit_float(kernel_hash_combine(kernel_hash_combine(pixel_seed, sample_reversed), pass));
@@ -59,13 +62,19 @@ SHADING_FN PathState path_begin_along(uint stream, uint sample_index, vec3 origi
     path.radiance = vec3(0.0f);
     path.direct = vec3(0.0f);
     path.eta_scale = 1.0f;
+    path.scatter_normal = vec3(0.0f);
+    path.padding = 0.0f;
     return path;
 }
 
 /// A path from the camera through pixel (x, y), counted from the top left; box filter.
 SHADING_FN PathState path_begin(uint x, uint y, uint sample_index) {
-    PathState path = path_begin_along(y * kernel_frame().width + x, sample_index, kernel_frame().camera_position, vec3(0.0f));
-    const vec2 jitter = kernel_random_pair(path.pixel_seed, path.sample_reversed, 0u, 0u);
+    const uint streams = kernel_frame().sample_streams;
+    PathState path = path_begin_along(y * kernel_frame().width + x, sample_index / streams, kernel_frame().camera_position, vec3(0.0f));
+    if (sample_index % streams != 0u) {
+        path.pixel_seed = kernel_hash_combine(path.pixel_seed, sample_index % streams);
+    }
+    const vec2 jitter = path_random_pair(path, 0u, 0u);
     const float across = 2.0f * (float(x) + jitter.x) / float(kernel_frame().width) - 1.0f;
     const float down = 2.0f * (float(y) + jitter.y) / float(kernel_frame().height) - 1.0f;
     path.direction = normalize(kernel_frame().camera_forward + kernel_frame().camera_right * across - kernel_frame().camera_up * down);
@@ -111,7 +120,9 @@ SHADING_FN void kernel_add_visible_lights(SHADING_INOUT(PathState) path, float d
         SHADING_IN(LightData) light = fetch_light(index);
         const float t = light_intersect(light, path.origin, path.direction);
         if (t >= 0.0f && t < distance) {
-            const float pdf = light_pdf(light, path.scatter_origin) * fetch_emitter(fetch_light_emitter(index)).probability;
+            SHADING_IN(KernelEmitter) emitter = fetch_emitter(fetch_light_emitter(index));
+            const float pdf = light_pdf(light, path.scatter_origin) *
+                              kernel_selection_probability(emitter, path.scatter_origin, path.scatter_normal);
             kernel_add_met(path, light_radiance(light, path.direction), pdf);
         }
     }
@@ -119,9 +130,15 @@ SHADING_FN void kernel_add_visible_lights(SHADING_INOUT(PathState) path, float d
 
 // -- scattering
 
-SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, SHADING_IN(Frame) frame,
-                                     SHADING_IN(Surface) surface, SHADING_IN(BsdfLobes) lobes, vec3 wo, float u_select, vec2 u) {
-    const KernelLightSample light = kernel_sample_emitters(position, u_select, u);
+/// Where light sampling may look for light: on the shading normal's side, unless light also passes the surface.
+SHADING_FN vec3 kernel_light_side(SHADING_IN(Surface) surface, vec3 normal) {
+    return surface.transmission > 0.0f ? vec3(0.0f) : normal;
+}
+
+SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, vec3 normal,
+                                     SHADING_IN(Frame) frame, SHADING_IN(Surface) surface, SHADING_IN(BsdfLobes) lobes, vec3 wo,
+                                     float u_select, vec2 u) {
+    const KernelLightSample light = kernel_sample_emitters(position, kernel_light_side(surface, normal), u_select, u);
     if (max_component(light.light) <= 0.0f) {
         return;
     }
@@ -166,15 +183,15 @@ SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec
         return;
     }
     const BsdfLobes lobes = bsdf_prepare(surface, wo);
-    const vec2 choices = kernel_random_pair(path.pixel_seed, path.sample_reversed, event, 1u);
+    const vec2 choices = path_random_pair(path, event, 1u);
     if (kernel_frame().emitter_count > 0u) {
-        kernel_sample_direct(path, position, error, geometric, frame, surface, lobes, wo, choices.x,
-                             kernel_random_pair(path.pixel_seed, path.sample_reversed, event, 2u));
+        kernel_sample_direct(path, position, error, geometric, normal, frame, surface, lobes, wo, choices.x,
+                             path_random_pair(path, event, 2u));
     }
     if (last && kernel_frame().scattered_emission == 0u) {
         return;
     }
-    const vec2 u = kernel_random_pair(path.pixel_seed, path.sample_reversed, event, 3u);
+    const vec2 u = path_random_pair(path, event, 3u);
     const BsdfSample scattered = bsdf_sample_prepared(surface, lobes, wo, vec3(u, choices.y));
     if (scattered.pdf <= 0.0f || max_component(scattered.weight) <= 0.0f) {
         return;
@@ -189,7 +206,7 @@ SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec
     // refraction, which later leaving the medium undoes.
     if (path.depth >= 4u) {
         const float survival = min(max_component(throughput) / eta_scale, 0.98f);
-        if (kernel_random_pair(path.pixel_seed, path.sample_reversed, event + 1u, 0u).x >= survival) {
+        if (path_random_pair(path, event + 1u, 0u).x >= survival) {
             return;
         }
         throughput = throughput / survival;
@@ -199,6 +216,7 @@ SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec
     path.eta_scale = eta_scale;
     path.scatter_pdf = scattered.pdf;
     path.scatter_origin = position;
+    path.scatter_normal = kernel_light_side(surface, normal);
     path.origin = kernel_offset(position, error, geometric, direction);
     path.direction = direction;
     path.after_shadow = kernel_stage_scatter;
@@ -271,7 +289,7 @@ SHADING_FN void kernel_take_surface_hit(SHADING_INOUT(PathState) path, SHADING_I
     const bool inside = !front && !two_sided;
     const MaterialPoint at = material_at(material, point.texcoord0, point.texcoord1, point.color, inside);
     if (!inside && max_component(at.emission) > 0.0f) {
-        kernel_add_met(path, at.emission, path.scatter_pdf > 0.0f ? kernel_hit_pdf(point, path.scatter_origin) : 0.0f);
+        kernel_add_met(path, at.emission, path.scatter_pdf > 0.0f ? kernel_hit_pdf(point, path.scatter_origin, path.scatter_normal) : 0.0f);
     }
     // The back of a one-sided surface is black; that of a transmissive solid is its inside.
     const bool black = inside && !at.surface.inside;

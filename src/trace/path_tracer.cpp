@@ -97,6 +97,7 @@ struct PathTracer::State {
         kernel.frame.sky_columns = emitters.sky_columns;
         kernel.frame.sky_rows = emitters.sky_rows;
         kernel.frame.scattered_emission = emitters.scattered_emission ? 1 : 0;
+        kernel.frame.sample_streams = 1;
         return kernel;
     }
 };

@@ -128,7 +128,8 @@ TEST(Kernel, OnTheDeviceTakesTheSameStepsAsOnTheHost) {
                     .sky_emitter = emitters.sky_emitter,
                     .sky_columns = 0,
                     .sky_rows = 0,
-                    .scattered_emission = 1};
+                    .scattered_emission = 1,
+                    .sample_streams = 1};
 
     const std::uint32_t count = 64 * 64;
     DeviceTables tables(*device, kernel);
