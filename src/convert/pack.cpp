@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "shading/cie_sky.h"
+
 namespace heliodon::convert {
 namespace {
 
@@ -18,7 +20,7 @@ static_assert(offsetof(MaterialData, metallic) == 48 && offsetof(MaterialData, b
 static_assert(sizeof(MaterialData) == 96 + 12 * 32);
 static_assert(sizeof(LightData) == 64 && offsetof(LightData, intensity) == 32);
 static_assert(sizeof(InstanceData) == 144);
-static_assert(sizeof(shading::SkyData) == 32);
+static_assert(sizeof(shading::SkyData) == 64 && offsetof(shading::SkyData, sun_direction) == 48);
 
 TextureRef pack_texture(const Scene& scene, const TextureUse& use) {
     const bool present = scene.textures().contains(use.texture);
@@ -33,7 +35,26 @@ std::uint32_t pack_flags(const Material& material) {
     if (material.alpha_mode == AlphaMode::blend) flags |= shading::material_flag_alpha_blend;
     const glm::vec3 emission = material.emission_nits;
     if (std::max({emission.r, emission.g, emission.b}) > 0.0f) flags |= shading::material_flag_emissive;
+    // A pane has no other side, and what it does not mirror passes.
+    if (material.model == MaterialModel::thin)
+        flags = shading::material_flag_two_sided | shading::material_flag_alpha_blend;
     return flags;
+}
+
+/// What a pane reflects is a mirror's. Where no angle is known it counts as its mean under an even sky:
+/// 2 ∫ τ(c) c dc = Σ 2 kᵢ/(i + 2).
+void pack_thin(const Material& material, MaterialData& data) {
+    const auto& k = material.transmittance;
+    data.transmittance = {k[0], k[1], k[2], k[3]};
+    data.transmittance_high = {k[4], k[5]};
+    data.reflectance = material.reflectance;
+    data.base_color = glm::vec3(1);
+    data.metallic = 1;
+    data.roughness = data.transmission = data.clearcoat = 0;
+    data.emission_nits = glm::vec3(0);
+    float mean = 0;
+    for (std::size_t i = 0; i < k.size(); ++i) mean += 2 * k[i] / static_cast<float>(i + 2);
+    data.opacity = 1 - std::clamp(mean, 0.0f, 1.0f);
 }
 
 glm::vec3 unit_or(const glm::vec3& vector, const glm::vec3& fallback) {
@@ -73,7 +94,7 @@ MaterialData pack_material(const Scene& scene, const Material& material) {
     data.specular_color_texture = pack_texture(scene, material.specular_color_texture);
     data.clearcoat_texture = pack_texture(scene, material.clearcoat_texture);
     data.clearcoat_roughness_texture = pack_texture(scene, material.clearcoat_roughness_texture);
-    data.padding_texture = pack_texture(scene, {});
+    if (material.model == MaterialModel::thin) pack_thin(material, data);
     return data;
 }
 
@@ -127,6 +148,8 @@ shading::SkyData pack_sky(const Scene& scene) {
     data.model = static_cast<std::uint32_t>(sky.model);
     data.texture_index = shading::no_texture;
     data.north_rad = sky.north_rad;
+    if (sky.model == SkyModel::cie) shading::set_cie_sky(sky.cie_type, sky.zenith_luminance_nits, sky.ground_albedo,
+                                                         sky.sun_azimuth_rad, sky.sun_elevation_rad, data);
     if (sky.model == SkyModel::image) {
         if (scene.textures().contains(sky.image)) data.texture_index = sky.image.index;
         else data.model = shading::sky_model_none;

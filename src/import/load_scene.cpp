@@ -33,6 +33,8 @@ bool has_lights(const Scene& scene) {
 double mean_sky_luminance(const Scene& scene) {
     const Sky& sky = scene.sky();
     if (sky.model == SkyModel::constant) return luminance(sky.luminance_nits);
+    // Within a factor of 1.5 for every type: near enough for a camera that was given no exposure.
+    if (sky.model == SkyModel::cie) return 0.5 * (1 + sky.ground_albedo) * sky.zenith_luminance_nits;
     const Texture* image = sky.model == SkyModel::image ? scene.textures().find(sky.image) : nullptr;
     if (!image || image->levels.empty()) return 0;
     double sum = 0, weights = 0;

@@ -61,6 +61,7 @@ FrameRenderer::~FrameRenderer() {
     (void)device_.wait_idle();
     if (sky_specular_slot_) device_.textures().remove(*sky_specular_slot_);
     if (sky_irradiance_slot_) device_.textures().remove(*sky_irradiance_slot_);
+    if (sky_picture_slot_) device_.textures().remove(*sky_picture_slot_);
 }
 
 Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(gpu::Device& device, const std::string& shader_directory) {

@@ -213,11 +213,11 @@ private:
     std::uint32_t draw_calls_ = 0;
 
     gpu::Buffer frame_buffer_, camera_view_, shadow_cull_views_, shadow_views_, shading_tables_, fragments_;
-    gpu::Image shadow_depth_, shadow_slope_, sum_, display_, sky_specular_, sky_irradiance_;
+    gpu::Image shadow_depth_, shadow_slope_, sum_, display_, sky_specular_, sky_irradiance_, sky_picture_;
     GrowingBuffer visible_lights_{"visible lights", 0}, light_grid_{"light grid", 0};
     GrowingBuffer raster_ranges_{"raster ranges", 0}, camera_raster_view_{"camera raster view", 0},
         shadow_raster_views_{"shadow raster views", 0};
-    std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_;
+    std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_, sky_picture_slot_;
     std::deque<gpu::TimelineValue> in_flight_;
 };
 

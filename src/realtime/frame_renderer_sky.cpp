@@ -4,6 +4,7 @@
 #include "passes/sensors/sensors.h"
 #include "passes/sensors/sensors_shared.h"
 #include "realtime/frame_renderer.h"
+#include "shading/sky.h"
 
 namespace heliodon::realtime {
 namespace {
@@ -12,30 +13,41 @@ constexpr std::uint32_t points_of_area_light = 256;  // of a light with an exten
 
 }  // namespace
 
-
 Result<void> FrameRenderer::prefilter_sky() {
     prefiltered_sky_ = gpu_scene_.sky_revision();
+    const shading::SkyData& sky = gpu_scene_.flat().sky();
+    gpu::SamplerDescription sampler;
+    sampler.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    auto linear = device_.sampler(sampler);
+    if (!linear) return tl::unexpected(linear.error());
+    const auto place = [&](std::optional<std::uint32_t>& slot, const gpu::Image& image) -> Result<void> {
+        if (slot) return device_.textures().replace(*slot, image, *linear);
+        auto added = device_.textures().add(image, *linear);
+        if (!added) return tl::unexpected(added.error());
+        slot = *added;
+        return {};
+    };
     GpuScene::SkyMaps maps;
-    if (const auto source = gpu_scene_.sky_slot()) {
-        const Texture& texture = *gpu_scene_.flat().textures()[gpu_scene_.flat().sky().texture_index];
-        auto made = passes::prefilter_environment(device_, pipelines_, *source, static_cast<std::uint32_t>(texture.width));
+    std::optional<std::uint32_t> source = gpu_scene_.sky_slot();
+    std::uint32_t width = source ? static_cast<std::uint32_t>(gpu_scene_.flat().textures()[sky.texture_index]->width) : 0;
+    if (shading::sky_is_formula(sky)) {
+        auto drawn = passes::draw_sky(device_, pipelines_, sky);
+        if (!drawn) return tl::unexpected(drawn.error());
+        sky_picture_ = std::move(*drawn);
+        if (auto done = place(sky_picture_slot_, sky_picture_); !done) return done;
+        source = maps.picture = *sky_picture_slot_;
+        width = sky_picture_.extent().width;
+    }
+    if (source) {
+        auto made = passes::prefilter_environment(device_, pipelines_, *source, width);
         if (!made) return tl::unexpected(made.error());
         sky_specular_ = std::move(made->specular);
         sky_irradiance_ = std::move(made->irradiance);
-        gpu::SamplerDescription sampler;
-        sampler.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-        auto linear = device_.sampler(sampler);
-        if (!linear) return tl::unexpected(linear.error());
-        const auto place = [&](std::optional<std::uint32_t>& slot, const gpu::Image& image) -> Result<void> {
-            if (slot) return device_.textures().replace(*slot, image, *linear);
-            auto added = device_.textures().add(image, *linear);
-            if (!added) return tl::unexpected(added.error());
-            slot = *added;
-            return {};
-        };
         if (auto done = place(sky_specular_slot_, sky_specular_); !done) return done;
         if (auto done = place(sky_irradiance_slot_, sky_irradiance_); !done) return done;
-        maps = {*sky_specular_slot_, *sky_irradiance_slot_, sky_specular_.mips()};
+        maps.specular = *sky_specular_slot_;
+        maps.irradiance = *sky_irradiance_slot_;
+        maps.specular_levels = sky_specular_.mips();
     }
     return gpu_scene_.set_sky_maps(maps);
 }

@@ -308,7 +308,7 @@ Result<void> GpuScene::upload_materials(const std::vector<std::uint32_t>& change
 Result<void> GpuScene::upload_sky() {
     SkyRecord record;
     record.sky = flat_.sky();
-    record.image_slot = slot_of(flat_.sky().texture_index);
+    record.image_slot = sky_maps_.picture != shading::no_texture ? sky_maps_.picture : slot_of(flat_.sky().texture_index);
     record.specular_slot = sky_maps_.specular;
     record.irradiance_slot = sky_maps_.irradiance;
     record.specular_levels = sky_maps_.specular_levels;

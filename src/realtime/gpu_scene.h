@@ -52,6 +52,7 @@ public:
     /// Bindless slots of the environment's maps, for shading.
     struct SkyMaps {
         std::uint32_t specular = shading::no_texture, irradiance = shading::no_texture;
+        std::uint32_t picture = shading::no_texture;  ///< of a sky that is a formula
         std::uint32_t specular_levels = 1;
     };
     [[nodiscard]] Result<void> set_sky_maps(const SkyMaps& maps);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -54,6 +55,7 @@ enum class MaterialModel : std::uint8_t {
     standard,  ///< metallic/roughness with a dielectric coat of `ior`
     lambert,   ///< exactly base_color/π and nothing else
     unlit,     ///< base_color × emission_nits' white: shown as it is, takes no light (KHR_materials_unlit)
+    thin,      ///< a pane of no thickness: lets `transmittance` pass straight on and mirrors `reflectance`
 };
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
@@ -77,6 +79,9 @@ struct Material {
     float bump_scale_m = 0.01f;       ///< height of a bump texture's white over its black, metres
     float occlusion_strength = 1.0f;  ///< acts on indirect diffuse light only
     bool two_sided = false;
+    /// Thin: share let through by the cosine of incidence, coefficients of its 0th to 5th power.
+    std::array<float, 6> transmittance{1};
+    float reflectance = 0.0f;  ///< thin: share mirrored, at any incidence
 
     TextureUse base_color_texture;  ///< srgb8; alpha multiplies the opacity
     TextureUse orm_texture;         ///< linear8: occlusion R, roughness G, metallic B; factors multiply

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,20 +65,34 @@ struct Node {
     [[nodiscard]] std::span<const NodeId> children() const { return links.children; }
 };
 
-enum class SkyModel : std::uint8_t { none, constant, image };
+enum class SkyModel : std::uint8_t { none, constant, image, cie };
 struct Sky {
     SkyModel model = SkyModel::none;
     glm::vec3 luminance_nits{0};  ///< constant; for an image sky it scales the image (default 1)
     TextureId image;              ///< equirectangular float32 texture, cd/m²; its centre column looks to −Z
     float north_rad = 0;          ///< turns the sky clockwise seen from above
+
+    static constexpr int traditional_overcast = 16;
+    int cie_type = 1;                     ///< ISO 15469's 1 to 15, or traditional_overcast
+    float zenith_luminance_nits = 5000;   ///< cie
+    float ground_albedo = 0.2f;           ///< cie: below the horizon a diffuse ground that the sky lights
+    float sun_azimuth_rad = 0;            ///< cie: clockwise from north
+    float sun_elevation_rad = std::numbers::pi_v<float> / 2;
 };
 
+/// counts.x × counts.y cells of the parallelogram u, v, whose front is u × v.
+struct SensorGrid {
+    glm::vec3 u{1, 0, 0}, v{0, 1, 0};  ///< metres
+    glm::ivec2 counts{1};
+};
 enum class SensorType : std::uint8_t { illuminance, luminance };
 struct Sensor {
     std::string name;
     SensorType type = SensorType::illuminance;
     glm::vec3 position{0};
     glm::vec3 direction{0, 1, 0};  ///< illuminance: the surface normal; luminance: the way it looks
+    std::optional<float> offset_m;   ///< how far along `direction` it begins; else 10⁻⁴ of the scene's size
+    std::optional<SensorGrid> grid;  ///< many illuminances from `position` on, one in the middle of each cell
 };
 
 /// What a keyframe channel drives. Values hold 1, 3 or 4 floats a key as the property needs (rotation:

@@ -134,6 +134,39 @@ void read_factors(ObjectReader& object, Material& material) {
     object.read("occlusion_strength", material.occlusion_strength, unit_interval);
 }
 
+/// `transmittance` is one number, or up to six coefficients of a polynomial in the cosine of incidence.
+void read_pane(ObjectReader& object, Material& material) {
+    const bool thin = material.model == MaterialModel::thin;
+    const auto transmittance = thin ? object.require("transmittance") : object.find("transmittance");
+    const auto reflectance = object.find("reflectance");
+    for (const auto& key : {transmittance, reflectance})
+        if (key && !thin) throw Refusal{key->path(), "expected with the model \"thin\" alone"};
+    if (!thin) return;
+    if (reflectance) material.reflectance = reflectance->number(unit_interval);
+    if (transmittance->json().is_number()) {
+        material.transmittance = {transmittance->number(unit_interval)};
+    } else {
+        const std::size_t most = material.transmittance.size();
+        if (!transmittance->json().is_array() || transmittance->json().empty() || transmittance->json().size() > most)
+            transmittance->refuse(fmt::format("a number or a list of 1 to {} numbers", most));
+        material.transmittance = {};
+        std::size_t power = 0;
+        for (const JsonCursor& coefficient : transmittance->elements()) material.transmittance[power++] = coefficient.number();
+    }
+    // The polynomial is held within 0 and 1, so that this bounds what leaves a pane by what arrives.
+    float most_passing = 0;
+    for (int step = 0; step <= 100; ++step) {
+        float passing = 0;
+        for (std::size_t i = material.transmittance.size(); i-- > 0;)
+            passing = passing * static_cast<float>(step) * 0.01f + material.transmittance[i];
+        most_passing = std::max(most_passing, std::min(passing, 1.0f));
+    }
+    constexpr float rounding = 1e-3f;
+    if (most_passing + material.reflectance > 1 + rounding)
+        throw Refusal{object.cursor().path(), fmt::format("expected transmittance and reflectance of at most 1 together, found {:.4g}",
+                                                          most_passing + material.reflectance)};
+}
+
 void read_textures(ObjectReader& object, MaterialTextures& textures) {
     object.read("base_color_texture", textures.base_color);
     object.read("roughness_texture", textures.roughness);
@@ -191,9 +224,11 @@ MaterialBlock read_material(const std::string& name, const JsonCursor& cursor) {
     if (const auto model = object.find("model"))
         block.material.model = model->one_of<MaterialModel>({{"standard", MaterialModel::standard},
                                                              {"lambert", MaterialModel::lambert},
-                                                             {"unlit", MaterialModel::unlit}});
+                                                             {"unlit", MaterialModel::unlit},
+                                                             {"thin", MaterialModel::thin}});
     read_factors(object, block.material);
     read_textures(object, block.textures);
+    read_pane(object, block.material);
     block.material.alpha_mode = default_alpha_mode(block);
     if (const auto mode = object.find("alpha_mode"))
         block.material.alpha_mode = mode->one_of<AlphaMode>(

@@ -20,29 +20,67 @@ void check_view(const JsonCursor& cursor, const Camera& camera) {
         throw Refusal{cursor.path(), "expected far_m beyond near_m (or 0: infinite), found it nearer"};
 }
 
-/// What daylight models use. Checked here; the models that exist are without a sun.
-void check_daylight(ObjectReader& sky) {
+/// Where the sun of a CIE sky stands; its disc is none of it.
+void read_cie_sun(const JsonCursor& cursor, Sky& sky) {
+    ObjectReader sun(cursor);
+    sky.sun_azimuth_rad = glm::radians(sun.require("azimuth_deg").number());
+    sky.sun_elevation_rad = glm::radians(sun.require("elevation_deg").number(Range{.low = 0, .high = 90}));
+    if (const auto disc = sun.find("disc"); disc && disc->boolean())
+        disc->refuse_as_unsupported("the sun's disc", "false (a directional light gives the sun's own light)");
+    float ignored = 0;
+    sun.read("angular_diameter_deg", ignored, positive);
+    sun.finish();
+}
+
+/// What daylight models use: kept for a CIE sky, checked for others.
+void read_daylight(ObjectReader& object, Sky& sky) {
     constexpr Range latitude{.low = -90, .high = 90}, longitude{.low = -180, .high = 180};
     float ignored = 0;
-    int ignored_type = 0;
-    sky.read("turbidity", ignored, Range{.low = 1, .high = 64});
-    sky.read("ground_albedo", ignored, unit_interval);
-    sky.read("cie_type", ignored_type, 1, 15);
-    sky.read("zenith_luminance_nits", ignored, not_negative);
-    sky.read("latitude_deg", ignored, latitude);
-    sky.read("longitude_deg", ignored, longitude);
-    if (const auto time = sky.find("time")) (void)time->name();
-    if (const auto sun = sky.find("sun")) sun->refuse_as_unsupported("suns in the sky", "none with this sky model");
+    object.read("turbidity", ignored, Range{.low = 1, .high = 64});
+    object.read("ground_albedo", sky.ground_albedo, unit_interval);
+    object.read("cie_type", sky.cie_type, 1, Sky::traditional_overcast);
+    object.read("zenith_luminance_nits", sky.zenith_luminance_nits, not_negative);
+    object.read("latitude_deg", ignored, latitude);
+    object.read("longitude_deg", ignored, longitude);
+    if (const auto time = object.find("time")) (void)time->name();
+    const auto sun = object.find("sun");
+    if (sun && sky.model != SkyModel::cie) sun->refuse_as_unsupported("suns in the sky", "none with this sky model");
+    if (sun) read_cie_sun(*sun, sky);
+    // Overcast types 1, 3 and 5 and the traditional one are the same all round.
+    const bool turns = sky.cie_type != Sky::traditional_overcast && (sky.cie_type > 5 || sky.cie_type % 2 == 0);
+    if (sky.model == SkyModel::cie && turns && !sun)
+        throw Refusal{object.cursor().path(), fmt::format("expected \"sun\" with cie_type {}: its light depends on where the sun stands", sky.cie_type)};
 }
 
 SkyModel read_sky_model(ObjectReader& sky) {
     const auto model = sky.find("model");
     if (!model) return SkyModel::none;
-    for (const char* daylight : {"preetham", "hosek", "cie"})
+    for (const char* daylight : {"preetham", "hosek"})
         if (model->json() == daylight)
-            model->refuse_as_unsupported("daylight models", "one of \"none\", \"constant\", \"image\"");
-    return model->one_of<SkyModel>(
-        {{"none", SkyModel::none}, {"constant", SkyModel::constant}, {"image", SkyModel::image}});
+            model->refuse_as_unsupported("the daylight models of Preetham and of Hosek", "one of \"none\", \"constant\", \"image\", \"cie\"");
+    return model->one_of<SkyModel>({{"none", SkyModel::none},
+                                    {"constant", SkyModel::constant},
+                                    {"image", SkyModel::image},
+                                    {"cie", SkyModel::cie}});
+}
+
+/// Illuminances over a rectangle (or parallelogram).
+void read_sensor_grid(ObjectReader& object, Sensor& sensor) {
+    constexpr int most_points_a_side = 1024;
+    SensorGrid grid;
+    sensor.position = object.require("origin").vector();
+    grid.u = object.require("u").vector();
+    grid.v = object.require("v").vector();
+    const JsonCursor counts = object.require("counts");
+    if (!counts.json().is_array() || counts.json().size() != 2) counts.refuse("a list of 2 whole numbers");
+    const auto elements = counts.elements();
+    grid.counts = {elements[0].integer(1, most_points_a_side), elements[1].integer(1, most_points_a_side)};
+    const glm::dvec3 u = grid.u, v = grid.v, normal = glm::cross(u, v);
+    constexpr double smallest_sine = 1e-6;  // single precision tells no smaller angle apart
+    if (!(glm::length(normal) > smallest_sine * glm::length(u) * glm::length(v)))
+        throw Refusal{object.cursor().path(), "expected u and v that span an area, found parallel ones or 0"};
+    sensor.direction = glm::vec3(glm::normalize(normal));
+    sensor.grid = grid;
 }
 
 int read_voxels(const JsonCursor& cursor) {
@@ -106,10 +144,17 @@ Sensor read_sensor(const JsonCursor& cursor) {
     ObjectReader object(cursor);
     Sensor sensor;
     sensor.name = object.require("name").name();
-    sensor.type = object.require("type").one_of<SensorType>(
-        {{"illuminance", SensorType::illuminance}, {"luminance", SensorType::luminance}});
-    sensor.position = object.require("position").vector();
-    sensor.direction = object.require(sensor.type == SensorType::illuminance ? "normal" : "direction").unit_vector();
+    const bool grid = object.require("type").json() == "grid";
+    if (grid)
+        read_sensor_grid(object, sensor);
+    else
+        sensor.type = object.require("type").one_of<SensorType>(
+            {{"illuminance", SensorType::illuminance}, {"luminance", SensorType::luminance}, {"grid", {}}});
+    if (!grid) {
+        sensor.position = object.require("position").vector();
+        sensor.direction = object.require(sensor.type == SensorType::illuminance ? "normal" : "direction").unit_vector();
+    }
+    if (const auto offset = object.find("offset_m")) sensor.offset_m = offset->number(not_negative);
     object.finish();
     return sensor;
 }
@@ -128,7 +173,7 @@ SkyBlock read_sky(const JsonCursor& cursor) {
     else if (image)
         (void)image->file();
     object.read_degrees("north_deg", block.sky.north_rad, any_number);
-    check_daylight(object);
+    read_daylight(object, block.sky);
     object.finish();
     return block;
 }

@@ -17,7 +17,7 @@ SHADING_FN uint kernel_select_emitter(float u) {
     return low;
 }
 
-// -- the image sky: cells of equal steps in azimuth and polar angle, each sampled evenly in solid angle
+// -- a sky that varies: cells of equal steps in azimuth and polar angle, each sampled evenly in solid angle
 
 /// Cumulative share up to and including cell `i` of the run that starts at `first`.
 SHADING_FN uint kernel_search_sky(uint first, uint count, float u) {
@@ -64,7 +64,7 @@ SHADING_FN vec3 kernel_sky_radiance(vec3 direction) {
     if (sky.model == sky_model_image) {
         texel = vec3(scene_texture(sky.texture_index, sky_uv(direction, sky.north_rad)));
     }
-    return sky_radiance(sky, texel);
+    return sky_radiance(sky, direction, texel);
 }
 SHADING_FN KernelLightSample kernel_sample_sky(vec2 u) {
     const uint columns = kernel_frame().sky_columns;

@@ -52,7 +52,7 @@ struct KernelGeometry {
     uint attributes;  // kernel_has_…
 };
 
-/// A light, an emissive primitive or the image sky, as next-event estimation selects it.
+/// A light, an emissive primitive or a sky that varies, as next-event estimation selects it.
 SHADING_CONST uint kernel_emitter_light = 0u;  // `index` names a LightData
 SHADING_CONST uint kernel_emitter_triangle = 1u;
 SHADING_CONST uint kernel_emitter_quad = 2u;  // a parallelogram
@@ -116,7 +116,7 @@ struct KernelFrame {
     uint emitter_count;
     uint visible_light_count;  // lights with an extent: spheres and directional discs
     uint environment;          // 0: the sky is black
-    uint sky_emitter;          // the image sky's place among the emitters, or kernel_no_emitter
+    uint sky_emitter;          // the place among the emitters of a sky that varies, or kernel_no_emitter
     uint sky_columns;          // of the sky's sampling table
     uint sky_rows;
     uint scattered_emission;  // 0: no scattered ray can meet any light, so the last one need not be traced

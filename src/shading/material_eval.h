@@ -49,6 +49,14 @@ SHADING_FN float material_opacity(MaterialData m, float alpha) {
     return (m.flags & material_flag_alpha_blend) != 0u ? clamp(opacity, 0.0f, 1.0f) : 1.0f;
 }
 
+/// Share of the light that a thin pane lets pass straight on, by the cosine of incidence on either side.
+SHADING_FN float thin_transmittance(SHADING_IN(MaterialData) m, float cosine) {
+    float c = min(abs(cosine), 1.0f);
+    vec4 low = m.transmittance;
+    vec2 high = m.transmittance_high;
+    return clamp(low.x + c * (low.y + c * (low.z + c * (low.w + c * (high.x + c * high.y)))), 0.0f, 1.0f);
+}
+
 /// glTF 2.0's products of factor, texel and vertex colour. `inside`: see Surface.
 SHADING_FN MaterialPoint material_combine(MaterialData m, MaterialTexels t, vec4 vertex_color, bool inside) {
     MaterialPoint p;

@@ -135,6 +135,22 @@ SHADING_FN vec3 kernel_light_side(SHADING_IN(Surface) surface, vec3 normal) {
     return surface.transmission > 0.0f ? vec3(0.0f) : normal;
 }
 
+/// Makes the shadow ray to a light sample the next one; `arriving` is what reaches the path if nothing blocks it.
+SHADING_FN void kernel_aim_shadow(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric,
+                                  SHADING_IN(KernelLightSample) light, vec3 arriving) {
+    path.shadow_light = arriving;
+    path.shadow_origin = kernel_offset(position, error, geometric, light.direction);
+    path.shadow_direction = light.direction;
+    path.shadow_t_max = kernel_infinity;
+    if (light.distance < kernel_infinity) {
+        const vec3 segment = light.target - path.shadow_origin;
+        const float length_m = length(segment);
+        path.shadow_direction = segment / max(length_m, 1.0e-37f);
+        path.shadow_t_max = length_m * (1.0f - 1.0e-6f);  // the rounding of origin + t · direction
+    }
+    path.stage = kernel_stage_shadow;
+}
+
 SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, vec3 normal,
                                      SHADING_IN(Frame) frame, SHADING_IN(Surface) surface, SHADING_IN(BsdfLobes) lobes, vec3 wo,
                                      float u_select, vec2 u) {
@@ -155,17 +171,7 @@ SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 positio
     if (light.pdf > 0.0f) {
         weight = power_heuristic(light.pdf, bsdf_pdf_prepared(surface, lobes, wo, wi));
     }
-    path.shadow_light = path.throughput * value * light.light * weight;
-    path.shadow_origin = kernel_offset(position, error, geometric, light.direction);
-    path.shadow_direction = light.direction;
-    path.shadow_t_max = kernel_infinity;
-    if (light.distance < kernel_infinity) {
-        const vec3 segment = light.target - path.shadow_origin;
-        const float length_m = length(segment);
-        path.shadow_direction = segment / max(length_m, 1.0e-37f);
-        path.shadow_t_max = length_m * (1.0f - 1.0e-6f);  // the rounding of origin + t · direction
-    }
-    path.stage = kernel_stage_shadow;
+    kernel_aim_shadow(path, position, error, geometric, light, path.throughput * value * light.light * weight);
 }
 
 /// One scattering event: a light sample, whose shadow ray comes first, and a scattered ray. `geometric` is
@@ -242,10 +248,14 @@ SHADING_FN PathState path_begin_illuminance(uint stream, uint sample_index, vec3
 SHADING_FN void kernel_take_shadow_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHit) hit) {
     if (hit.kind == kernel_hit_surface) {
         const KernelPoint point = kernel_point(hit);
-        const float opacity = material_opacity_at(fetch_material(point.material), point.texcoord0, point.texcoord1, point.color.w);
-        path.shadow_light = path.shadow_light * (1.0f - opacity);
+        SHADING_IN(MaterialData) material = fetch_material(point.material);
+        float passing = thin_transmittance(material, dot(path.shadow_direction, point.geometric_normal));
+        if (material.model != material_model_thin) {
+            passing = 1.0f - material_opacity_at(material, point.texcoord0, point.texcoord1, point.color.w);
+        }
+        path.shadow_light = path.shadow_light * passing;
         path.pass_count += 1u;
-        if (opacity < 1.0f && path.pass_count < kernel_most_passes) {
+        if (passing > 0.0f && path.pass_count < kernel_most_passes) {
             const vec3 onward = kernel_offset(point.position, point.error, point.geometric_normal, path.shadow_direction);
             if (path.shadow_t_max < kernel_infinity) {
                 path.shadow_t_max -= dot(onward - path.shadow_origin, path.shadow_direction);
@@ -262,15 +272,21 @@ SHADING_FN void kernel_take_shadow_hit(SHADING_INOUT(PathState) path, SHADING_IN
     path.stage = path.after_shadow;
 }
 
-/// True where the ray goes on behind the surface as if it were not there, with probability 1 − opacity.
+/// True where the ray goes on behind the surface as if it were not there, with probability 1 − opacity, or through a
+/// pane, which mirrors the others.
 SHADING_FN bool kernel_pass_through(SHADING_INOUT(PathState) path, SHADING_IN(KernelPoint) point, SHADING_IN(MaterialData) material) {
-    const float opacity = material_opacity_at(material, point.texcoord0, point.texcoord1, point.color.w);
+    const bool thin = material.model == material_model_thin;
+    const float opacity =
+        thin ? material.reflectance : material_opacity_at(material, point.texcoord0, point.texcoord1, point.color.w);
     if (opacity >= 1.0f) {
         return false;
     }
     path.pass_count += 1u;
     if (kernel_random_pass(path.pixel_seed, path.sample_reversed, path.pass_count) < opacity) {
         return false;
+    }
+    if (thin) {
+        path.throughput = path.throughput * (thin_transmittance(material, dot(path.direction, point.geometric_normal)) / (1.0f - opacity));
     }
     path.origin = kernel_offset(point.position, point.error, point.geometric_normal, path.direction);
     path.stage = path.pass_count < kernel_most_passes ? kernel_stage_scatter : kernel_stage_done;

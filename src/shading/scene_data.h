@@ -18,6 +18,7 @@ struct TextureRef {
 SHADING_CONST uint material_model_standard = 0u;
 SHADING_CONST uint material_model_lambert = 1u;
 SHADING_CONST uint material_model_unlit = 2u;
+SHADING_CONST uint material_model_thin = 3u;  // a pane: what it does not mirror passes straight on
 SHADING_CONST uint material_flag_two_sided = 1u;
 SHADING_CONST uint material_flag_alpha_mask = 2u;
 SHADING_CONST uint material_flag_alpha_blend = 4u;
@@ -53,7 +54,10 @@ struct MaterialData {
     TextureRef specular_color_texture;
     TextureRef clearcoat_texture;
     TextureRef clearcoat_roughness_texture;
-    TextureRef padding_texture;
+    vec4 transmittance;       // thin: coefficients of the cosine of incidence, 0th to 3rd power
+    vec2 transmittance_high;  // 4th and 5th power
+    float reflectance;        // thin: share that is mirrored, at any incidence
+    float padding_thin;
 };
 
 SHADING_CONST uint light_type_point = 0u;
@@ -89,13 +93,18 @@ SHADING_CONST uint instance_flag_visible = 1u;
 SHADING_CONST uint sky_model_none = 0u;
 SHADING_CONST uint sky_model_constant = 1u;
 SHADING_CONST uint sky_model_image = 2u;
+SHADING_CONST uint sky_model_cie = 3u;       // ISO 15469's fifteen types
+SHADING_CONST uint sky_model_overcast = 4u;  // and its traditional overcast sky
 struct SkyData {
-    vec3 luminance;  // constant: cd/m²; image: scale
+    vec3 luminance;  // constant: cd/m²; image: scale; cie: cd/m² where gradation and indicatrix are 1; overcast: zenith
     uint model;
     uint texture_index;
     float north_rad;
-    float padding0;
-    float padding1;
+    float ground_luminance;  // cie, overcast: cd/m² below the horizon
+    float indicatrix_e;
+    vec4 gradation_indicatrix;  // cie: the standard's a, b, c, d
+    vec3 sun_direction;         // unit, towards the sun
+    float padding;
 };
 
 SHADING_END

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/units.h"
+#include "shading/sky.h"
 
 namespace heliodon::trace {
 namespace {
@@ -158,32 +159,49 @@ void add_instances(const convert::FlatScene& flat, const TextureTable& textures,
     }
 }
 
+/// Mean luminance over a cell of the sky's sampling table, roughly: sampling stays unbiased.
+double sky_cell_luminance(const shading::SkyData& sky, const TextureTable& textures, glm::ivec2 cells, glm::ivec2 cell) {
+    const glm::ivec2 size = textures.size(sky.texture_index);
+    if (sky.model != shading::sky_model_image) {
+        constexpr int points = 3;  // a side
+        double sum = 0;
+        for (int i = 0; i < points * points; ++i) {
+            const glm::vec2 uv = (glm::vec2(cell) + (glm::vec2(i % points, i / points) + 0.5f) / float(points)) / glm::vec2(cells);
+            sum += luminance(shading::sky_radiance(sky, shading::sky_direction(uv, sky.north_rad), glm::vec3(1)));
+        }
+        return sum / (points * points);
+    }
+    // Texels of the cell and half a texel round it: where interpolation can carry light from.
+    const int x0 = static_cast<int>(std::floor(double(cell.x) * size.x / cells.x - 0.5));
+    const int x1 = static_cast<int>(std::floor(double(cell.x + 1) * size.x / cells.x + 0.5));
+    const int y0 = static_cast<int>(std::floor(double(cell.y) * size.y / cells.y - 0.5));
+    const int y1 = static_cast<int>(std::floor(double(cell.y + 1) * size.y / cells.y + 0.5));
+    double sum = 0;
+    for (int y = y0; y <= y1; ++y)
+        for (int x = x0; x <= x1; ++x)
+            sum += luminance(glm::vec3(textures.sample(
+                sky.texture_index, {(x + 0.5f) / size.x, std::clamp((y + 0.5f) / size.y, 0.0f, 1.0f)})));
+    return luminance(sky.luminance) * std::max(0.0, sum) / ((x1 - x0 + 1) * (y1 - y0 + 1));
+}
+
 void add_sky(const convert::FlatScene& flat, const TextureTable& textures, double scene_radius, EmitterTable& table,
              Draft& draft) {
     const shading::SkyData& sky = flat.sky();
     if (sky.model == shading::sky_model_none) return;
     table.scattered_emission = true;
     // A constant sky needs no light sampling: scattered rays already follow the surface's own weights.
-    if (sky.model != shading::sky_model_image) return;
-    const glm::ivec2 size = textures.size(sky.texture_index);
-    constexpr int most_columns = 1024;
-    const int columns = std::clamp(size.x, 1, most_columns), rows = std::clamp(size.y, 1, most_columns / 2);
+    if (sky.model == shading::sky_model_constant) return;
+    // Formulas are smooth but about the sun and the horizon, which is the border of two rows.
+    constexpr glm::ivec2 formula_cells(256, 128), most_cells(1024, 512);
+    const bool image = sky.model == shading::sky_model_image;
+    const glm::ivec2 size = image ? textures.size(sky.texture_index) : formula_cells;
+    const int columns = std::clamp(size.x, 1, most_cells.x), rows = std::clamp(size.y, 1, most_cells.y);
     std::vector<double> weights(static_cast<std::size_t>(columns) * rows);
     double mean = 0;
     for (int row = 0; row < rows; ++row) {
         const double cap = std::cos(pi * row / rows) - std::cos(pi * (row + 1) / rows);
         for (int column = 0; column < columns; ++column) {
-            // Texels of the cell and half a texel round it: where interpolation can carry light from.
-            const int x0 = static_cast<int>(std::floor(double(column) * size.x / columns - 0.5));
-            const int x1 = static_cast<int>(std::floor(double(column + 1) * size.x / columns + 0.5));
-            const int y0 = static_cast<int>(std::floor(double(row) * size.y / rows - 0.5));
-            const int y1 = static_cast<int>(std::floor(double(row + 1) * size.y / rows + 0.5));
-            double sum = 0;
-            for (int y = y0; y <= y1; ++y)
-                for (int x = x0; x <= x1; ++x)
-                    sum += luminance(glm::vec3(textures.sample(
-                        sky.texture_index, {(x + 0.5f) / size.x, std::clamp((y + 0.5f) / size.y, 0.0f, 1.0f)})));
-            const double average = std::max(0.0, sum) / ((x1 - x0 + 1) * (y1 - y0 + 1));
+            const double average = sky_cell_luminance(sky, textures, {columns, rows}, {column, row});
             weights[static_cast<std::size_t>(row) * columns + column] = average * cap;
             mean += 0.5 * average * cap / columns;
         }
@@ -211,7 +229,7 @@ void add_sky(const convert::FlatScene& flat, const TextureTable& textures, doubl
     KernelEmitter emitter{};
     emitter.kind = shading::kernel_emitter_sky;
     draft.begin_group();
-    draft.add(emitter, 4 * pi * mean * luminance(sky.luminance) * pi * scene_radius * scene_radius);
+    draft.add(emitter, 4 * pi * mean * pi * scene_radius * scene_radius);
 }
 
 /// Turns fluxes into probabilities.

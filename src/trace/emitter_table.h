@@ -10,7 +10,7 @@
 namespace heliodon::trace {
 
 /// What next-event estimation selects from, with each emitter's share of the samples: half by luminous
-/// flux, half evenly over lights, emissive instances and the image sky, so that neither a weak lamp beside
+/// flux, half evenly over lights, emissive instances and a sky that varies, so that neither a weak lamp beside
 /// the sun nor one triangle of a thousand starves.
 struct EmitterTable {
     std::vector<shading::KernelEmitter> emitters;
@@ -18,7 +18,7 @@ struct EmitterTable {
     std::vector<std::uint32_t> light_emitter;   ///< by light; kernel_no_emitter for a hole
     std::vector<std::uint32_t> visible_lights;  ///< lights with an extent: scattered rays can meet them
     std::uint32_t sky_emitter = shading::kernel_no_emitter;
-    /// The image sky's luminance: cumulative over rows, then a cumulative row each; cells are equal steps of
+    /// The luminance of a sky that varies: cumulative over rows, then a cumulative row each; cells are equal steps of
     /// azimuth and polar angle.
     std::vector<float> sky_cumulative;
     std::uint32_t sky_columns = 0, sky_rows = 0;

@@ -46,15 +46,22 @@ void main() {
     for (uint at = next_nearer(head, true, fragment); at != 0u; at = next_nearer(head, false, fragment)) {
         fragment = fragments[at - 1u];
         const SurfacePoint point = resolve_surface(fragment.instance, fragment.triangle, frame, direction);
-        const float opacity = point.material.opacity;
-        if (opacity <= 0.0f) continue;
-        vec3 radiance = surface_radiance(point, frame, pcg_hash(seed + fragment.instance + pcg_hash(fragment.triangle)));
-        if (cone_traced && frame.batch == 0u) radiance += indirect_reflected(point, frame.cone_shift, solid_diagonal(fragment.instance));
+        const MaterialData material = material_table[instance_table[fragment.instance].material];
+        float opacity = point.material.opacity;
+        float passing = 1.0f - opacity;
+        if (material.model == material_model_thin) {  // mirrors a part and lets another pass
+            opacity = material.reflectance;
+            passing = thin_transmittance(material, dot(point.wo, point.geometric));
+        }
+        if (passing >= 1.0f) continue;
+        vec3 radiance = vec3(0.0f);
+        if (opacity > 0.0f) radiance = surface_radiance(point, frame, pcg_hash(seed + fragment.instance + pcg_hash(fragment.triangle)));
+        if (opacity > 0.0f && cone_traced && frame.batch == 0u) radiance += indirect_reflected(point, frame.cone_shift, solid_diagonal(fragment.instance));
         // The picture has all lights that stand before opaque surfaces: those before this one it does not dim.
         vec3 before = vec3(0.0f);
         if (frame.batch == 0u) before = lights_seen(frame.position, -point.wo, distance(frame.position, point.position));
-        value.rgb = mix(value.rgb - before, radiance, opacity) + before;
-        value.a = mix(value.a, 1.0f, opacity);
+        value.rgb = (value.rgb - before) * passing + radiance * opacity + before;
+        value.a = 1.0f - (1.0f - value.a) * passing;
     }
     imageStore(contribution, ivec2(pixel), value);
 }

@@ -73,17 +73,17 @@ vec3 lights_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, FrameData fr
 /// Irradiance / π on a plane of this normal under the open sky.
 vec3 sky_diffuse(vec3 normal) {
     vec3 texel = vec3(1.0f);
-    if (sky_data.model == sky_model_image && sky_irradiance_slot != no_texture) texel = sky_map(sky_irradiance_slot, normal, 0.0f);
-    return sky_radiance(sky_data, texel);
+    if (sky_irradiance_slot != no_texture) texel = sky_map(sky_irradiance_slot, normal, 0.0f);
+    return sky_radiance_filtered(sky_data, texel);
 }
 
 vec3 sky_specular(vec3 normal, vec3 wo, float roughness) {
     vec3 texel = vec3(1.0f);
-    if (sky_data.model == sky_model_image && sky_specular_slot != no_texture) {
+    if (sky_specular_slot != no_texture) {
         const vec3 mirror = reflect(-wo, normal);
         texel = sky_map(sky_specular_slot, dominant_reflection(normal, mirror, roughness), roughness * float(sky_specular_levels - 1u));
     }
-    return sky_radiance(sky_data, texel);
+    return sky_radiance_filtered(sky_data, texel);
 }
 
 /// The open sky by split sums; occlusion darkens its diffuse part alone.

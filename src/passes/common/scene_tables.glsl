@@ -15,7 +15,7 @@ layout(set = 0, binding = 5, std430) readonly buffer LightTable { LightData ligh
 layout(set = 0, binding = 6, std430) readonly buffer ActiveLightTable { uint active_light_table[]; };
 layout(set = 0, binding = 7, std430) readonly buffer SkyTable {
     SkyData sky_data;
-    uint sky_image_slot;
+    uint sky_image_slot;       // the image, or a picture of a formula; or no_texture
     uint sky_specular_slot;    // prefiltered for roughness 0 … 1 over sky_specular_levels mips, or no_texture
     uint sky_irradiance_slot;  // irradiance / π by normal, or no_texture
     uint sky_specular_levels;

@@ -12,7 +12,7 @@ vec3 sky_map(uint slot, vec3 direction, float level) {
 vec3 sky_seen(vec3 direction) {
     vec3 texel = vec3(1.0f);
     if (sky_data.model == sky_model_image && sky_image_slot != no_texture) texel = sky_map(sky_image_slot, direction, 0.0f);
-    return sky_radiance(sky_data, texel);
+    return sky_radiance(sky_data, direction, texel);
 }
 
 #endif

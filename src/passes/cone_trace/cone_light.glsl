@@ -10,12 +10,12 @@ const float unlimited = 1.0e30f;
 /// The sky over a cone of `one_minus_cos`: its solid angle / 2π.
 vec3 sky_over_cone(vec3 direction, float one_minus_cos) {
     vec3 texel = vec3(1.0f);
-    if (sky_data.model == sky_model_image && sky_image_slot != no_texture) {
+    if (sky_image_slot != no_texture) {
         const vec2 size = vec2(textureSize(textures[nonuniformEXT(sky_image_slot)], 0));
         const float texel_angle = 2.0f * pi * pi / (size.x * size.y);  // at the horizon of an equirectangular map
         texel = sky_map(sky_image_slot, direction, max(0.0f, 0.5f * log2(2.0f * pi * one_minus_cos / texel_angle)));
     }
-    return sky_radiance(sky_data, texel);
+    return sky_radiance_filtered(sky_data, texel);
 }
 
 struct ConeLight {

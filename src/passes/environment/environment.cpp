@@ -13,6 +13,7 @@ constexpr std::uint32_t widest_specular_map = 1024;
 constexpr std::uint32_t narrowest_specular_map = 32;
 constexpr std::uint32_t irradiance_width = 64;
 constexpr std::uint32_t specular_samples = 512;
+constexpr std::uint32_t sky_picture_width = 512;
 
 Result<gpu::Image> map_image(gpu::Device& device, const char* name, std::uint32_t width, std::uint32_t mips) {
     gpu::ImageDescription description;
@@ -24,7 +25,29 @@ Result<gpu::Image> map_image(gpu::Device& device, const char* name, std::uint32_
     return gpu::Image::create(device, description);
 }
 
+const gpu::Access storage{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
+const gpu::Access sampled{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+
 }  // namespace
+
+Result<gpu::Image> draw_sky(gpu::Device& device, gpu::Pipelines& pipelines, const shading::SkyData& sky) {
+    auto pipeline = pipelines.compute("passes/environment/sky_picture.comp");
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    auto image = map_image(device, "sky picture", sky_picture_width, std::bit_width(sky_picture_width) - 1);
+    if (!image) return image;
+    auto done = device.run("sky picture", [&](gpu::Commands& commands) {
+        commands.transition(*image, storage);
+        for (std::uint32_t level = 0; level < image->mips(); ++level) {
+            const VkExtent3D extent = image->extent(level);
+            commands.dispatch_threads(**pipeline, shading::SkyPictureConstants{sky, extent.width, extent.height},
+                                      {image->mip(level)}, {extent.width, extent.height, 1});
+        }
+        commands.transition(*image, sampled);
+    });
+    if (!done) return tl::unexpected(done.error());
+    return image;
+}
 
 Result<EnvironmentMaps> prefilter_environment(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t source,
                                               std::uint32_t width) {
@@ -44,9 +67,6 @@ Result<EnvironmentMaps> prefilter_environment(gpu::Device& device, gpu::Pipeline
     if (!irradiance_image) return tl::unexpected(irradiance_image.error());
     maps.irradiance = std::move(*irradiance_image);
 
-    const gpu::Access storage{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
-    const gpu::Access sampled{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     auto done = device.run("environment", [&](gpu::Commands& commands) {
         commands.transition(maps.specular, storage);
         commands.transition(maps.irradiance, storage);

@@ -1,6 +1,6 @@
 #ifndef HELIODON_PASSES_ENVIRONMENT_SHARED_H
 #define HELIODON_PASSES_ENVIRONMENT_SHARED_H
-#include "shading/language.h"
+#include "shading/scene_data.h"
 SHADING_BEGIN
 
 struct EnvironmentConstants {
@@ -9,6 +9,12 @@ struct EnvironmentConstants {
     uint height;
     float roughness;  // specular maps
     uint samples;
+};
+
+struct SkyPictureConstants {
+    SkyData sky;
+    uint width;  // of the level being written
+    uint height;
 };
 
 SHADING_END
