@@ -113,6 +113,7 @@ void FlatScene::rebuild(const Scene& scene) {
     materials_.clear();
     instances_.clear();
     lights_.clear();
+    luminaires_.clear();
     texture_size_limit_ = scene.convert_settings().texture_size_limit;
     refresh_tables(scene);
     FlatChanges ignored;
@@ -163,12 +164,21 @@ void FlatScene::write_node(const Scene& scene, std::uint32_t slot, const glm::ma
     constexpr std::uint32_t none = NodeEntries{}.light;
     if (node.light && entries.light == none) entries.light = allocate(lights_, free_lights_);
     if (entries.light == none) return;
-    lights_[entries.light] = node.light && visible ? pack_light(*node.light, world) : no_light();
+    lights_[entries.light] = node.light && visible ? flat_light(*node.light, world, changes) : no_light();
     changes.lights.push_back(entries.light);
     if (!node.light) {
         free_lights_.push_back(entries.light);
         entries.light = none;
     }
+}
+
+shading::LightData FlatScene::flat_light(const Light& light, const glm::mat4& world, FlatChanges& changes) {
+    if (light.type != LightType::luminaire) return pack_light(light, world);
+    if (!light.luminaire) return no_light();
+    const std::size_t before = luminaires_.values().size();
+    const std::uint32_t table = luminaires_.place(light.luminaire);
+    changes.luminaires = changes.luminaires || luminaires_.values().size() != before;
+    return pack_luminaire(light, world, table);
 }
 
 void FlatScene::clear_node(std::uint32_t slot, FlatChanges& changes) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "convert/pack_luminaire.h"
 #include "scene/scene.h"
 #include "shading/scene_data.h"
 
@@ -18,9 +19,10 @@ struct FlatChanges {
     std::vector<std::uint32_t> instances;
     std::vector<std::uint32_t> lights;
     bool sky = false;
+    bool luminaires = false;  ///< the table of luminaires has grown
     [[nodiscard]] bool any() const {
         return everything || sky || !geometries.empty() || !textures.empty() || !materials.empty() ||
-               !instances.empty() || !lights.empty();
+               !instances.empty() || !lights.empty() || luminaires;
     }
 };
 
@@ -42,6 +44,8 @@ public:
     [[nodiscard]] std::span<const shading::MaterialData> materials() const { return materials_; }
     [[nodiscard]] std::span<const shading::InstanceData> instances() const { return instances_; }
     [[nodiscard]] std::span<const shading::LightData> lights() const { return lights_; }
+    /// What shading/luminaire.h reads. It only grows until the whole scene is flattened anew.
+    [[nodiscard]] std::span<const float> luminaire_table() const { return luminaires_.values(); }
     [[nodiscard]] const shading::SkyData& sky() const { return sky_; }
     /// World bounds of the visible instances.
     [[nodiscard]] Bounds bounds() const;
@@ -56,6 +60,7 @@ private:
     void refresh_tables(const Scene& scene);
     void write_material(const Scene& scene, std::uint32_t slot, FlatChanges& changes);
     void write_node(const Scene& scene, std::uint32_t slot, const glm::mat4& world, bool visible, FlatChanges& changes);
+    [[nodiscard]] shading::LightData flat_light(const Light& light, const glm::mat4& world, FlatChanges& changes);
     void clear_node(std::uint32_t slot, FlatChanges& changes);
     void write_subtree(const Scene& scene, std::uint32_t slot, FlatChanges& changes);
 
@@ -70,6 +75,7 @@ private:
     std::vector<shading::MaterialData> materials_;
     std::vector<shading::InstanceData> instances_;
     std::vector<shading::LightData> lights_;
+    LuminaireTables luminaires_;
     shading::SkyData sky_{};
 };
 

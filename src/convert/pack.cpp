@@ -18,7 +18,7 @@ using shading::TextureRef;
 static_assert(sizeof(TextureRef) == 32);
 static_assert(offsetof(MaterialData, metallic) == 48 && offsetof(MaterialData, base_color_texture) == 96);
 static_assert(sizeof(MaterialData) == 96 + 12 * 32);
-static_assert(sizeof(LightData) == 64 && offsetof(LightData, intensity) == 32);
+static_assert(sizeof(LightData) == 112 && offsetof(LightData, intensity) == 32 && offsetof(LightData, weighted_normal) == 96);
 static_assert(sizeof(InstanceData) == 144);
 static_assert(sizeof(shading::SkyData) == 64 && offsetof(shading::SkyData, sun_direction) == 48);
 
@@ -114,6 +114,7 @@ LightData pack_light(const Light& light, const glm::mat4& world) {
         case LightType::point: data.type = light.lambertian ? shading::light_type_lambertian : shading::light_type_point; break;
         case LightType::spot: data.type = shading::light_type_spot; break;
         case LightType::directional: data.type = shading::light_type_directional; break;
+        case LightType::luminaire: return no_light();  // pack_luminaire's
     }
     return data;
 }

@@ -2,10 +2,24 @@
 
 #include <cmath>
 
-#include "shading/light.h"
+#include "shading/luminaire_shape.h"
 #include "shading/sampling.h"
 
 namespace heliodon::realtime {
+
+namespace {
+
+shading::LightData point_of_luminaire(shading::LightData light, glm::vec2 u) {
+    const shading::OpeningPoint point =
+        shading::opening_surface_point(light.opening & shading::opening_shape_bits, light.half_extent, u);
+    // Openings are symmetric: it is the same whichever way azimuths run.
+    const glm::mat3 to_world(light.tangent, glm::cross(light.tangent, light.axis), light.axis);
+    light.position += to_world * point.position;
+    light.weighted_normal = to_world * point.weighted_normal;
+    return light;
+}
+
+}  // namespace
 
 shading::LightData center_of_area_light(shading::LightData light) {
     light.radius = 0;
@@ -33,6 +47,7 @@ shading::LightData point_of_area_light(const shading::LightData& light, glm::vec
         point.intensity = light.intensity * 4.0f;
         return point;
     }
+    if (light.type == shading::light_type_luminaire) return point_of_luminaire(point, u);
     const glm::vec3 local = shading::sample_cosine_hemisphere(u);
     point.position = light.position + light.radius * shading::to_world(shading::frame_from_normal(light.axis), local);
     return point;

@@ -181,6 +181,7 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
                                              static_cast<std::uint32_t>(wanted_.width) * wanted_.height * fragments_per_pixel);
     inputs_.tables.clear();
     gpu_scene_.append_bindings(inputs_.tables);
+    inputs_.luminaires = &gpu_scene_.luminaire_buffer();
     inputs_.index_buffer = &gpu_scene_.index_buffer();
     inputs_.instance_count = gpu_scene_.instance_count();
     inputs_.has_tested = gpu_scene_.has_tested();

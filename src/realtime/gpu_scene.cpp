@@ -124,7 +124,8 @@ GpuScene::GpuScene(gpu::Device& device)
       materials_("materials", 0),
       lights_("lights", 0),
       active_lights_("active lights", 0),
-      sky_("sky", 0) {}
+      sky_("sky", 0),
+      luminaires_("luminaires", 0) {}
 
 GpuScene::~GpuScene() {
     for (auto& texture : textures_)
@@ -369,7 +370,7 @@ Result<RealtimeUpdate> GpuScene::update(const Scene& scene) {
     if (compact != compact_) changes.geometries = all_of(flat_.geometries().size());
     compact_ = compact;
     // Every table exists, even for an empty scene: descriptors always point at something.
-    for (GrowingBuffer* buffer : {&geometries_, &instances_, &materials_, &lights_, &active_lights_})
+    for (GrowingBuffer* buffer : {&geometries_, &instances_, &materials_, &lights_, &active_lights_, &luminaires_})
         if (auto done = buffer->reserve(device_, smallest_buffer_bytes, 0); !done) return tl::unexpected(done.error());
 
     if (auto done = upload_geometries(changes.geometries, update); !done) return tl::unexpected(done.error());
@@ -384,6 +385,10 @@ Result<RealtimeUpdate> GpuScene::update(const Scene& scene) {
     for (const std::uint32_t light : changes.lights)
         if (light < light_shadows_.size()) light_shadows_[light] = shading::no_texture - 1;  // forces its upload
     light_shadows_.resize(flat_.lights().size(), shading::no_texture - 1);
+    if (changes.luminaires || changes.everything) {
+        const std::span<const float> table = flat_.luminaire_table();
+        if (auto done = upload_elements<float>(device_, luminaires_, table, all_of(table.size())); !done) return tl::unexpected(done.error());
+    }
     if (changes.sky || !sky_.size()) {
         if (auto done = upload_sky(); !done) return tl::unexpected(done.error());
         ++sky_revision_;

@@ -59,6 +59,8 @@ public:
 
     [[nodiscard]] const convert::FlatScene& flat() const { return flat_; }
     [[nodiscard]] const gpu::Buffer& index_buffer() const { return indices_.buffer(); }
+    /// shading/luminaire.h's table.
+    [[nodiscard]] const gpu::Buffer& luminaire_buffer() const { return luminaires_.buffer(); }
     [[nodiscard]] std::uint32_t instance_count() const { return static_cast<std::uint32_t>(flat_.instances().size()); }
     /// Whether any visible instance needs the alpha-tested or the blended draw list.
     [[nodiscard]] bool has_tested() const { return has_tested_; }
@@ -104,7 +106,7 @@ private:
 
     gpu::Device& device_;
     convert::FlatScene flat_;
-    GrowingBuffer vertices_, indices_, geometries_, instances_, materials_, lights_, active_lights_, sky_;
+    GrowingBuffer vertices_, indices_, geometries_, instances_, materials_, lights_, active_lights_, sky_, luminaires_;
     RangeAllocator vertex_ranges_, index_ranges_;
     std::vector<Allocation> allocations_;
     std::vector<shading::GeometryData> geometry_table_;

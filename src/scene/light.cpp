@@ -18,6 +18,8 @@ double flux_per_candela(const Light& light) {
             const double cos_outer = std::cos(static_cast<double>(light.outer_rad));
             return 2.0 * pi * ((1.0 - cos_inner) + (cos_inner - cos_outer) / 3.0);
         }
+        case LightType::luminaire:
+            return light.luminaire && light.luminaire->peak_cd > 0 ? light.luminaire->flux_lm / light.luminaire->peak_cd : 0.0;
         case LightType::directional:
             return 0.0;
     }

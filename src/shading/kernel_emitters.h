@@ -241,7 +241,7 @@ SHADING_FN KernelLightSample kernel_sample_surface(SHADING_IN(KernelEmitter) emi
 // -- any of them
 
 SHADING_FN KernelLightSample kernel_sample_light(SHADING_IN(LightData) light, vec3 from, vec2 u) {
-    const LightSample sampled = light_sample(light, from, u);
+    const LightSample sampled = any_light_sample(light, from, u);
     KernelLightSample result;
     result.direction = sampled.direction;
     result.pdf = sampled.pdf;

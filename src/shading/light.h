@@ -1,5 +1,6 @@
 // Light sources other than emissive surfaces and the sky: point, spot and Lambertian lights (spheres
-// where they have a radius) and directional lights (discs in the sky where they have an angular radius).
+// where they have a radius) and directional lights (discs in the sky where they have an angular radius). luminaire.h has
+// the same for luminaires, and for any light.
 // docs/lights.md gives the units and formulas.
 #ifndef HELIODON_SHADING_LIGHT_H
 #define HELIODON_SHADING_LIGHT_H
@@ -40,7 +41,7 @@ SHADING_FN vec3 light_intensity(LightData light, vec3 away) {
 }
 
 /// Flux in lm (RGB), exactly; directional lights have none and return 0. Point 4πI; Lambertian πI; spot
-/// 2πI (1 − cos inner + (cos inner − cos outer)/3), the integral of spot_falloff over the sphere.
+/// 2πI (1 − cos inner + (cos inner − cos outer)/3), the integral of spot_falloff over the sphere; luminaire as measured.
 SHADING_FN vec3 light_flux(LightData light) {
     if (light.type == light_type_point) {
         return light.intensity * (4.0f * pi);
@@ -51,6 +52,9 @@ SHADING_FN vec3 light_flux(LightData light) {
     if (light.type == light_type_spot) {
         return light.intensity *
                (2.0f * pi * (1.0f - light.cos_inner + (light.cos_inner - light.cos_outer) * (1.0f / 3.0f)));
+    }
+    if (light.type == light_type_luminaire) {
+        return light.intensity * light.flux_factor;
     }
     return vec3(0.0f);
 }

@@ -9,9 +9,10 @@
 //
 // Opens no namespace: GLSL includes it at global scope after the definitions below; C++ inside the struct
 // that has them as members (in a namespace that sees heliodon::shading). Include before it, outside:
-// shading/{bsdf, light, material_eval, sky, spherical_rectangle, kernel_sampler, kernel_state}.h. The includer defines
+// shading/{bsdf, light, luminaire_shape, material_eval, sky, spherical_rectangle, kernel_sampler, kernel_state}.h. The includer defines
 //
 //   what material_fetch.h wants:    scene_texture, scene_texture_size
+//   what luminaire.h wants:         luminaire_value
 //   KernelFrame kernel_frame()
 //   InstanceData fetch_instance(uint), MaterialData fetch_material(uint), LightData fetch_light(uint), SkyData fetch_sky()
 //   KernelGeometry fetch_geometry(uint geometry)
@@ -25,6 +26,7 @@
 #define HELIODON_SHADING_PATH_KERNEL_H
 #include "shading/material_fetch.h"
 #include "shading/kernel_surface.h"
+#include "shading/luminaire.h"
 #include "shading/kernel_emitters.h"
 
 // -- random numbers: dimension pair 0 is the pixel; each scattering event takes four more
@@ -118,12 +120,12 @@ SHADING_FN void kernel_add_visible_lights(SHADING_INOUT(PathState) path, float d
     for (uint i = 0u; i < kernel_frame().visible_light_count; ++i) {
         const uint index = fetch_visible_light(i);
         SHADING_IN(LightData) light = fetch_light(index);
-        const float t = light_intersect(light, path.origin, path.direction);
+        const float t = any_light_intersect(light, path.origin, path.direction);
         if (t >= 0.0f && t < distance) {
             SHADING_IN(KernelEmitter) emitter = fetch_emitter(fetch_light_emitter(index));
-            const float pdf = light_pdf(light, path.scatter_origin) *
+            const float pdf = any_light_pdf(light, path.scatter_origin, path.direction) *
                               kernel_selection_probability(emitter, path.scatter_origin, path.scatter_normal);
-            kernel_add_met(path, light_radiance(light, path.direction), pdf);
+            kernel_add_met(path, any_light_radiance(light, path.direction), pdf);
         }
     }
 }

@@ -65,18 +65,35 @@ SHADING_CONST uint light_type_spot = 1u;
 SHADING_CONST uint light_type_directional = 2u;
 SHADING_CONST uint light_type_lambertian = 3u;  // a point light with a cosine distribution about its axis
 SHADING_CONST uint light_type_none = 4u;        // a hole in the table
+SHADING_CONST uint light_type_luminaire = 5u;   // a measured distribution: shading/luminaire.h
+
+// Luminous openings of luminaires, in their table's axes. Without an extent: half_extent is 0.
+SHADING_CONST uint opening_box = 0u;
+SHADING_CONST uint opening_cylinder_x = 1u;  // elliptic, along that axis
+SHADING_CONST uint opening_cylinder_y = 2u;
+SHADING_CONST uint opening_cylinder_z = 3u;
+SHADING_CONST uint opening_ellipsoid = 4u;
+SHADING_CONST uint opening_shape_bits = 0xffu;
+SHADING_CONST uint opening_mirrored = 0x100u;  // azimuth angles run the other way round
 
 struct LightData {
     vec3 position;  // metres, world
-    float radius;   // metres; directional: angular radius, radians
-    vec3 axis;      // unit; where the light aims (point lights of a sphere: unused)
+    float radius;   // metres; directional: angular radius, radians; luminaire: of the sphere round its opening
+    vec3 axis;      // unit; where the light aims (point lights of a sphere: unused); luminaire: polar angle 0
     uint type;
-    vec3 intensity;  // cd on axis; directional: lux
+    vec3 intensity;  // cd on axis; directional: lux; luminaire: peak, which its table's values are relative to
     float cos_inner;
     float cos_outer;
     uint shadow;  // index of the first shadow view, or no_texture: the real-time engine's own
     float cone_radius;  // as radius, of a light that stands in one point and casts its shadow by a cone: likewise
-    float padding1;
+    float flux_factor;  // luminaire: flux / peak intensity, sr
+    // Luminaires alone. Their axes: x azimuth 0, y azimuth 90°, z `axis`.
+    vec3 tangent;  // unit: x
+    uint table;    // where its table begins (luminaire_value)
+    vec3 half_extent;  // of the luminous opening, m
+    uint opening;      // opening_… shape and flags
+    vec3 weighted_normal;  // one point of an opening with a volume (opening_surface_point), world; else 0
+    float padding;
 };
 
 /// One drawable: a part of a node.

@@ -8,6 +8,7 @@
 #include "shading/kernel_sampler.h"
 #include "shading/kernel_state.h"
 #include "shading/light.h"
+#include "shading/luminaire_shape.h"
 #include "shading/material_eval.h"
 #include "shading/sky.h"
 #include "shading/spherical_rectangle.h"
@@ -32,6 +33,7 @@ struct CpuKernel {
     const InstanceData& fetch_instance(uint index) const { return flat.instances()[index]; }
     const MaterialData& fetch_material(uint index) const { return flat.materials()[index]; }
     const LightData& fetch_light(uint index) const { return flat.lights()[index]; }
+    float luminaire_value(uint i) const { return flat.luminaire_table()[i]; }
     const SkyData& fetch_sky() const { return flat.sky(); }
     const KernelGeometry& fetch_geometry(uint geometry) const { return geometry_table[geometry].kernel; }
     uvec3 fetch_triangle(uint geometry, uint primitive) const {

@@ -40,6 +40,8 @@ double light_flux(const shading::LightData& light, double scene_radius) {
             return pi * intensity;
         case shading::light_type_spot:
             return 2 * pi * intensity * ((1.0 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3.0);
+        case shading::light_type_luminaire:
+            return intensity * light.flux_factor;
         case shading::light_type_directional:
             return intensity * pi * scene_radius * scene_radius;
         default:

@@ -47,7 +47,7 @@ SHADING_FN LightData agreement_light(uint i) {
     light.cos_outer = -0.5f;
     light.shadow = 0u;
     light.cone_radius = 0.0f;
-    light.padding1 = 0.0f;
+    light.flux_factor = 0.0f;
     return light;
 }
 

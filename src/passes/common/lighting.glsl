@@ -6,8 +6,8 @@
 #include "passes/common/hash.glsl"
 #include "passes/common/sky_lookup.glsl"
 #include "passes/light_grid/light_choice.glsl"
+#include "passes/common/luminaires.glsl"
 #include "shading/environment.h"
-#include "shading/light.h"
 
 layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
 float shading_table(uint index) { return shading_tables[index]; }
@@ -16,7 +16,7 @@ LightData batch_light(FrameData frame, uint index) { return light_table[active_l
 
 LightSample light_arriving(vec3 position, LightData light, uint index, uint pixel_seed) {
     const uint seed = pcg_hash(pixel_seed + index);
-    return light_sample(light, position, vec2(unit_interval(seed), unit_interval(pcg_hash(seed))));
+    return any_light_sample(light, position, vec2(unit_interval(seed), unit_interval(pcg_hash(seed))));
 }
 
 vec3 light_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, uint index, FrameData frame, uint pixel_seed) {

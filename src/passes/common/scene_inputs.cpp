@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace heliodon::passes {
+namespace {
+
+constexpr std::uint32_t luminaire_binding = 26;  // luminaires.glsl
+
+}  // namespace
 
 std::vector<gpu::Binding> select_bindings(const gpu::Pipeline& pipeline, const SceneInputs& scene,
                                           std::span<const NumberedBinding> own) {
@@ -12,6 +17,7 @@ std::vector<gpu::Binding> select_bindings(const gpu::Pipeline& pipeline, const S
                                         [&](const NumberedBinding& b) { return b.first == declared.binding; });
         if (found != own.end()) selected.push_back(found->second);
         else if (declared.binding < scene.tables.size()) selected.push_back(scene.tables[declared.binding]);
+        else if (declared.binding == luminaire_binding && scene.luminaires) selected.emplace_back(*scene.luminaires);
         // A binding that is missing here makes Commands refuse the call and name it.
     }
     return selected;

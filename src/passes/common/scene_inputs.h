@@ -15,6 +15,7 @@ namespace heliodon::passes {
 /// brings it up to date before each frame.
 struct SceneInputs {
     std::vector<gpu::Binding> tables;  ///< bindings 0 to 7 of scene_tables.glsl
+    const gpu::Buffer* luminaires = nullptr;  ///< luminaires.glsl
     const gpu::Buffer* index_buffer = nullptr;
     std::uint32_t instance_count = 0;
     bool has_tested = false;   ///< something visible is alpha-masked

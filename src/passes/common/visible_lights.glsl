@@ -2,7 +2,7 @@
 // nothing.
 #ifndef HELIODON_VISIBLE_LIGHTS_GLSL
 #define HELIODON_VISIBLE_LIGHTS_GLSL
-#include "shading/light.h"
+#include "passes/common/luminaires.glsl"
 
 layout(set = 0, binding = 16, std430) readonly buffer VisibleLights {
     uint visible_light_count;
@@ -19,8 +19,8 @@ vec3 lights_seen(vec3 origin, vec3 direction, float distance) {
     vec3 sum = vec3(0.0f);
     for (uint i = 0u; i < visible_light_count; ++i) {
         const LightData light = visible_lights[i];
-        const float t = light_intersect(light, origin, direction);
-        if (t >= 0.0f && t < distance) sum += light_radiance(light, direction);
+        const float t = any_light_intersect(light, origin, direction);
+        if (t >= 0.0f && t < distance) sum += any_light_radiance(light, direction);
     }
     return sum;
 }

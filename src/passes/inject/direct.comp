@@ -6,7 +6,7 @@
 #include "passes/inject/lit_faces.glsl"
 #include "passes/light_grid/light_choice.glsl"
 #include "shading/environment.h"
-#include "shading/light.h"
+#include "passes/common/luminaires.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 19, std430) buffer Illuminance { vec4 illuminance[]; };
@@ -18,7 +18,7 @@ vec3 illuminance_from(LightData light, VoxelFace face) {
     const uint samples = light_is_delta(light) ? 1u : area_light_samples;
     vec3 sum = vec3(0.0f);
     for (uint i = 0u; i < samples; ++i) {
-        const LightSample arriving = light_sample(light, face.position, hammersley(i, samples));
+        const LightSample arriving = any_light_sample(light, face.position, hammersley(i, samples));
         sum += arriving.value * max(dot(arriving.direction, face.normal), 0.0f);
     }
     if (sum == vec3(0.0f)) return sum;

@@ -22,8 +22,8 @@ float nearest_cos(vec3 axis, vec3 offset, float distance, float radius) {
     return cos_center * cos_half + sqrt(max(0.0f, 1.0f - cos_center * cos_center)) * sin_half;
 }
 
-/// The light's illuminance in a cell of this centre and half-diagonal; 0 only where it sends nothing into the cell. Nearer
-/// than the half-diagonal it grows no more.
+/// The light's illuminance in a cell of this centre and half-diagonal, of a luminaire by its peak; 0 only where it sends
+/// nothing into the cell. Nearer than the half-diagonal it grows no more.
 float weight_of(LightData light, vec3 center, float radius) {
     if (light.type == light_type_none) return 0.0f;
     const float strength = luminance(light.intensity);
