@@ -26,7 +26,7 @@ void read_cie_sun(const JsonCursor& cursor, Sky& sky) {
     sky.sun_azimuth_rad = glm::radians(sun.require("azimuth_deg").number());
     sky.sun_elevation_rad = glm::radians(sun.require("elevation_deg").number(Range{.low = 0, .high = 90}));
     if (const auto disc = sun.find("disc"); disc && disc->boolean())
-        disc->refuse_as_unsupported("the sun's disc", "false (a directional light gives the sun's own light)");
+        disc->refuse_as_unsupported("suns with a disc", "false (a directional light gives the sun's own light)");
     float ignored = 0;
     sun.read("angular_diameter_deg", ignored, positive);
     sun.finish();
@@ -144,13 +144,12 @@ Sensor read_sensor(const JsonCursor& cursor) {
     ObjectReader object(cursor);
     Sensor sensor;
     sensor.name = object.require("name").name();
-    const bool grid = object.require("type").json() == "grid";
-    if (grid)
+    const JsonCursor type = object.require("type");
+    if (type.json() == "grid") {
         read_sensor_grid(object, sensor);
-    else
-        sensor.type = object.require("type").one_of<SensorType>(
-            {{"illuminance", SensorType::illuminance}, {"luminance", SensorType::luminance}, {"grid", {}}});
-    if (!grid) {
+    } else {
+        sensor.type = type.one_of<SensorType>(
+            {{"illuminance", SensorType::illuminance}, {"luminance", SensorType::luminance}, {"grid", SensorType::illuminance}});
         sensor.position = object.require("position").vector();
         sensor.direction = object.require(sensor.type == SensorType::illuminance ? "normal" : "direction").unit_vector();
     }

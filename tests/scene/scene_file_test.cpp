@@ -1,3 +1,4 @@
+#include "scene/sensor_reading.h"
 #include "scene_file_fixture.h"
 
 #include <fmt/format.h>
@@ -209,6 +210,47 @@ TEST(SceneFile, ReadsSkies) {
         parsed(R"({"heliodon": 1, "sky": {"model": "none", "turbidity": 3, "ground_albedo": 0.2, "cie_type": 1,
         "zenith_luminance_nits": 5000, "latitude_deg": 59.9, "longitude_deg": 10.7, "time": "2026-03-21T09:00:00+01:00"}})");
     EXPECT_EQ(none.sky().model, SkyModel::none) << "what other models use may stand in the file";
+}
+
+TEST(SceneFile, ReadsCieSkiesWithTheirSun) {
+    const Scene clear = parsed(R"({"heliodon": 1, "sky": {"model": "cie", "cie_type": 12, "zenith_luminance_nits": 3000,
+        "ground_albedo": 0.3, "north_deg": 10, "sun": {"azimuth_deg": 180, "elevation_deg": 60, "disc": false}}})");
+    EXPECT_EQ(clear.sky().model, SkyModel::cie);
+    EXPECT_EQ(clear.sky().cie_type, 12);
+    EXPECT_FLOAT_EQ(clear.sky().zenith_luminance_nits, 3000);
+    EXPECT_FLOAT_EQ(clear.sky().ground_albedo, 0.3f);
+    EXPECT_FLOAT_EQ(clear.sky().sun_azimuth_rad, glm::radians(180.0f));
+    EXPECT_FLOAT_EQ(clear.sky().sun_elevation_rad, glm::radians(60.0f));
+    EXPECT_EQ(parsed(R"({"heliodon": 1, "sky": {"model": "cie", "cie_type": 16}})").sky().cie_type, Sky::traditional_overcast);
+}
+
+TEST(SceneFile, ReadsPanes) {
+    const Scene scene = parsed(R"({"heliodon": 1, "materials": {
+        "glass": {"model": "thin", "transmittance": [-0.03, 3.2, -3.1, -1.4, 4.0, -1.8], "reflectance": 0.05},
+        "film": {"model": "thin", "transmittance": 0.5}}})");
+    const Material& glass = *scene.materials().find(scene.find_material("glass"));
+    EXPECT_EQ(glass.model, MaterialModel::thin);
+    EXPECT_FLOAT_EQ(glass.transmittance[2], -3.1f);
+    EXPECT_FLOAT_EQ(glass.transmittance[5], -1.8f);
+    EXPECT_FLOAT_EQ(glass.reflectance, 0.05f);
+    const Material& film = *scene.materials().find(scene.find_material("film"));
+    EXPECT_FLOAT_EQ(film.transmittance[0], 0.5f);
+    EXPECT_FLOAT_EQ(film.transmittance[1], 0.0f);
+}
+
+TEST(SceneFile, AGridOfSensorsStandsInTheMiddlesOfItsCellsRowByRow) {
+    const Scene scene = parsed(R"({"heliodon": 1, "sensors": [
+        {"name": "desk", "type": "grid", "origin": [1,0.8,2], "u": [0,0,4], "v": [2,0,0], "counts": [4,2], "offset_m": 0.01},
+        {"name": "eye", "type": "luminance", "position": [0,1,0], "direction": [0,0,-3]}]})");
+    const auto points = sensor_points(scene, 0.5f);
+    ASSERT_EQ(points.size(), 9u);
+    EXPECT_EQ(points[1].name, "desk[1,0]");
+    EXPECT_EQ(points[1].position, glm::vec3(1.5f, 0.8f, 3.5f));
+    EXPECT_EQ(points[1].direction, glm::vec3(0, 1, 0)) << "u × v";
+    EXPECT_FLOAT_EQ(points[1].origin().y, 0.81f);
+    EXPECT_EQ(points[7].name, "desk[3,1]");
+    EXPECT_EQ(points[8].name, "eye");
+    EXPECT_EQ(points[8].origin(), glm::vec3(0, 1, -0.5f)) << "without an offset of its own";
 }
 
 TEST(SceneFile, ReadsSensorsAndSettings) {
