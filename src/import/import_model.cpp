@@ -17,8 +17,9 @@ Result<NodeId> import_model(Scene& scene, NodeId parent, const std::filesystem::
                        [](unsigned char c) { return char(std::tolower(c)); });
         if (ending == ".obj") return import::import_obj(scene, parent, path, warnings);
         if (ending == ".gltf" || ending == ".glb") return import::import_gltf(scene, parent, path, warnings);
+        if (ending == ".ies" || ending == ".ldt") return import::import_luminaire(scene, parent, path, warnings);
         import::refuse(path.string(),
-                       fmt::format("expected a model that ends in .obj, .gltf or .glb, found \"{}\"", ending));
+                       fmt::format("expected a model that ends in .obj, .gltf, .glb, .ies or .ldt, found \"{}\"", ending));
     });
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <tuple>
+#include <utility>
 
 #include "import/import.h"
 #include "import/import_failure.h"
@@ -43,6 +44,21 @@ private:
     std::map<std::string, TextureId> known_;
 };
 
+/// The luminaires that one scene file has read so far: lights of one file share its table.
+class SharedLuminaires {
+public:
+    Result<std::shared_ptr<const Luminaire>> read(const std::filesystem::path& path, int lamp_set, Warnings& warnings) {
+        std::shared_ptr<const Luminaire>& known = known_[{path, lamp_set}];
+        if (known) return known;
+        auto luminaire = load_luminaire(path, lamp_set, warnings);
+        if (luminaire) known = *luminaire;
+        return luminaire;
+    }
+
+private:
+    std::map<std::pair<std::filesystem::path, int>, std::shared_ptr<const Luminaire>> known_;
+};
+
 Result<TextureId> read_sky_image(Scene& scene, const std::filesystem::path& path) {
     Result<Texture> texture = load_texture(path, TextureFormat::float32);
     if (!texture) return tl::unexpected(texture.error());
@@ -56,12 +72,16 @@ Result<TextureId> read_sky_image(Scene& scene, const std::filesystem::path& path
 
 SceneFileReaders scene_file_readers() {
     auto shared = std::make_shared<SharedTextures>();
+    auto luminaires = std::make_shared<SharedLuminaires>();
     return {.model = import_model,
             .material_textures =
                 [shared](Scene& scene, Material& material, const MaterialTextures& files, Warnings&) {
                     return import::guarded({}, [&] { shared->read(scene, material, files); });
                 },
-            .sky_image = read_sky_image};
+            .sky_image = read_sky_image,
+            .luminaire = [luminaires](const std::filesystem::path& path, int lamp_set, Warnings& warnings) {
+                return luminaires->read(path, lamp_set, warnings);
+            }};
 }
 
 }  // namespace heliodon

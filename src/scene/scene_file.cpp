@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -55,6 +56,12 @@ private:
         std::string path;
     };
 
+    struct LuminaireJob {
+        NodeId node;
+        LightBlock::Photometry photometry;
+        std::string path;
+    };
+
     void read_settings(ObjectReader& root);
     void read_materials(ObjectReader& root);
     void read_nodes(const JsonCursor& list, NodeId parent);
@@ -65,6 +72,7 @@ private:
     void load_textures();
     void load_sky_image();
     void load_models();
+    void load_luminaires();
     void blend_where_opacity_moves(const Animation& animation);
 
     [[nodiscard]] std::filesystem::path resolve(const std::filesystem::path& file) const {
@@ -78,6 +86,7 @@ private:
     std::map<std::string, GeometryId> shapes_;  ///< by their text
     std::vector<TextureJob> texture_jobs_;
     std::vector<ModelJob> model_jobs_;
+    std::vector<LuminaireJob> luminaire_jobs_;
     std::filesystem::path sky_image_;
     UniqueNames node_names_{"node"};
 };
@@ -93,6 +102,7 @@ Scene Reader::read(const Json& document) {
     load_textures();
     load_sky_image();
     load_models();
+    load_luminaires();
     if (animations) {
         UniqueNames names("animation");
         for (const JsonCursor& cursor : animations->elements()) {
@@ -169,8 +179,11 @@ void Reader::read_node(const JsonCursor& cursor, NodeId parent) {
     node_names_.add(node.name, cursor);
     node.transform = read_transform(object);
     object.read("visible", node.visible);
-    if (const auto light = object.find("light")) node.light = read_light(*light);
+    const auto light = object.find("light");
+    const LightBlock block = light ? read_light(*light) : LightBlock{};
+    if (light) node.light = block.light;
     const NodeId id = scene_.add_node(std::move(node), parent);
+    if (block.photometry) luminaire_jobs_.push_back({id, *block.photometry, light->path()});
     read_drawable(object, id);
     const auto children = object.find("children");
     object.finish();
@@ -232,6 +245,22 @@ void Reader::load_models() {
         if (!placed) throw Refusal{job.path, placed.error().text()};
     }
     placement.remove_replaced_materials();
+}
+
+void Reader::load_luminaires() {
+    for (const LuminaireJob& job : luminaire_jobs_) {
+        if (!readers_.luminaire) throw Refusal{job.path, "expected no luminaires: this reader cannot read photometric files"};
+        auto luminaire = readers_.luminaire(resolve(job.photometry.file), job.photometry.lamp_set, warnings_);
+        if (!luminaire) throw Refusal{job.path + ".file", luminaire.error().text()};
+        Light light = *scene_.nodes().find(job.node)->light;
+        light.luminaire = *std::move(luminaire);
+        const double flux = light.luminaire->flux_lm;
+        const double scale = job.photometry.flux_lm && flux > 0 ? *job.photometry.flux_lm / flux : 1.0;
+        light.intensity = job.photometry.color * static_cast<float>(scale * job.photometry.scale * light.luminaire->peak_cd);
+        if (!std::isfinite(light.intensity.x + light.intensity.y + light.intensity.z))
+            throw Refusal{job.path, "expected a scale or flux whose intensity single precision holds, found more"};
+        scene_.set_light(job.node, std::move(light));
+    }
 }
 
 /// An opaque material has no use for an opacity; one whose opacity is animated blends.

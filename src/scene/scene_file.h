@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -21,6 +22,9 @@ struct MaterialTextures {
 };
 using MaterialTextureReader =
     std::function<Result<void>(Scene& scene, Material& material, const MaterialTextures& files, Warnings& warnings)>;
+/// Reads a photometric file (IES, EULUMDAT); `lamp_set` counts from 1.
+using LuminaireReader = std::function<Result<std::shared_ptr<const Luminaire>>(const std::filesystem::path& path, int lamp_set,
+                                                                               Warnings& warnings)>;
 /// Decodes an HDR picture (.hdr, .exr) for an image sky.
 using SkyImageReader = std::function<Result<TextureId>(Scene& scene, const std::filesystem::path& path)>;
 
@@ -28,6 +32,7 @@ struct SceneFileReaders {
     ModelReader model;
     MaterialTextureReader material_textures;
     SkyImageReader sky_image;
+    LuminaireReader luminaire = nullptr;
 };
 
 /// A `--set PATH=VALUE`: dotted path, list elements by name or index; VALUE is JSON, or a bare string.

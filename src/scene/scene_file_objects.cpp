@@ -75,6 +75,14 @@ std::variant<Shape, Mesh> read_shape_of(ShapeType type, ObjectReader& object) {
     return Shape{};
 }
 
+/// Of luminance 1; white where none is given.
+glm::dvec3 read_color(const std::optional<JsonCursor>& color) {
+    const glm::dvec3 rgb = color ? color->vector(not_negative) : glm::vec3(1);
+    const double luminance = units::luminance(rgb);
+    if (!(luminance > 0)) color->refuse("a colour that is not black");
+    return rgb / luminance;
+}
+
 /// Intensity in cd from `intensity_cd`, or from `flux_lm` and `color`; the light's distribution must be known.
 glm::vec3 read_intensity_cd(ObjectReader& object, const Light& light) {
     const auto intensity = object.find("intensity_cd"), flux = object.find("flux_lm"), color = object.find("color");
@@ -84,10 +92,7 @@ glm::vec3 read_intensity_cd(ObjectReader& object, const Light& light) {
     if (intensity && color)
         throw Refusal{color->path(), "expected color beside flux_lm alone, found it with intensity_cd"};
     if (intensity) return intensity->number_or_vector(not_negative);
-    const glm::dvec3 rgb = color ? color->vector(not_negative) : glm::vec3(1);
-    const double luminance = units::luminance(rgb);
-    if (!(luminance > 0)) color->refuse("a colour that is not black");
-    const glm::vec3 result(rgb / luminance * (flux->number(not_negative) / flux_per_candela(light)));
+    const glm::vec3 result(read_color(color) * (flux->number(not_negative) / flux_per_candela(light)));
     if (!(glm::max(result.x, glm::max(result.y, result.z)) <= std::numeric_limits<float>::max()))
         flux->refuse("a flux whose intensity single precision holds");
     return result;
@@ -107,6 +112,17 @@ void read_directional(ObjectReader& object, Light& light) {
     if (const auto direction = object.find("direction")) light.direction = direction->unit_vector();
     object.read_degrees("angular_diameter_deg", light.angular_diameter_rad,
                         Range{.low = 0, .high = 180, .high_excluded = true});
+}
+
+LightBlock::Photometry read_photometry(ObjectReader& object) {
+    constexpr int most_lamp_sets = 1000;
+    LightBlock::Photometry photometry;
+    photometry.file = object.require("file").file();
+    object.read("lamp_set", photometry.lamp_set, 1, most_lamp_sets);
+    object.read("scale", photometry.scale, not_negative);
+    if (const auto flux = object.find("flux_lm")) photometry.flux_lm = flux->number(not_negative);
+    photometry.color = glm::vec3(read_color(object.find("color")));
+    return photometry;
 }
 
 AlphaMode default_alpha_mode(const MaterialBlock& block) {
@@ -193,15 +209,17 @@ std::variant<Shape, Mesh> read_shape(const JsonCursor& cursor) {
     return shape;
 }
 
-Light read_light(const JsonCursor& cursor) {
+LightBlock read_light(const JsonCursor& cursor) {
     ObjectReader object(cursor);
-    const JsonCursor type = object.require("type");
-    if (type.json() == "ies")
-        type.refuse_as_unsupported("measured luminaires", "one of \"point\", \"spot\", \"directional\"");
-    Light light;
-    light.type = type.one_of<LightType>(
-        {{"point", LightType::point}, {"spot", LightType::spot}, {"directional", LightType::directional}});
-    if (light.type == LightType::directional) {
+    LightBlock block;
+    Light& light = block.light;
+    light.type = object.require("type").one_of<LightType>({{"point", LightType::point},
+                                                           {"spot", LightType::spot},
+                                                           {"directional", LightType::directional},
+                                                           {"ies", LightType::luminaire}});
+    if (light.type == LightType::luminaire) {
+        block.photometry = read_photometry(object);
+    } else if (light.type == LightType::directional) {
         read_directional(object, light);
     } else {
         if (light.type == LightType::spot)
@@ -212,7 +230,7 @@ Light read_light(const JsonCursor& cursor) {
         object.read("radius_m", light.radius_m, not_negative);
     }
     object.finish();
-    return light;
+    return block;
 }
 
 MaterialBlock read_material(const std::string& name, const JsonCursor& cursor) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -13,7 +14,19 @@ namespace heliodon::scene_file {
 
 [[nodiscard]] Camera read_camera(const JsonCursor& cursor);
 [[nodiscard]] Sensor read_sensor(const JsonCursor& cursor);
-[[nodiscard]] Light read_light(const JsonCursor& cursor);
+/// A light, and for a luminaire the file that measured it and what is made of it.
+struct LightBlock {
+    Light light;
+    struct Photometry {
+        std::filesystem::path file;  ///< relative to the scene file
+        int lamp_set = 1;
+        float scale = 1;
+        std::optional<float> flux_lm;  ///< in the place of the measured
+        glm::vec3 color{1};            ///< of luminance 1
+    };
+    std::optional<Photometry> photometry;
+};
+[[nodiscard]] LightBlock read_light(const JsonCursor& cursor);
 /// An exact shape, or the triangles of a procedural one.
 [[nodiscard]] std::variant<Shape, Mesh> read_shape(const JsonCursor& cursor);
 [[nodiscard]] ConvertSettings read_convert_settings(const JsonCursor& cursor);

@@ -50,6 +50,13 @@ inline SceneFileReaders stub_readers(std::vector<std::string>* models_read = nul
         if (path.filename() == "missing.hdr") return fail(path.string(), "expected a picture, found no file");
         return scene.add_texture({.name = path.generic_string(), .format = TextureFormat::float32});
     };
+    readers.luminaire = [](const std::filesystem::path& path, int lamp_set, Warnings&) -> Result<std::shared_ptr<const Luminaire>> {
+        if (path.filename() == "missing.ies") return fail(path.string(), "expected a photometric file, found none");
+        Luminaire luminaire{.name = path.generic_string()};  // 100 cd downwards, for each set more
+        luminaire.web = {.polar_rad = {0, 1.5}, .azimuth_rad = {0}, .candela = {100.0 * lamp_set, 100.0 * lamp_set}};
+        integrate(luminaire);
+        return std::make_shared<const Luminaire>(std::move(luminaire));
+    };
     return readers;
 }
 

@@ -169,6 +169,20 @@ TEST(SceneFile, ReadsHierarchyAndTransforms) {
     EXPECT_EQ(scene.roots().size(), 1u);
 }
 
+TEST(SceneFile, ScalesAndColoursLuminairesByTheirPeak) {
+    const Scene scene = parsed(R"({"heliodon": 1, "nodes": [
+      {"name": "as measured", "light": {"type": "ies", "file": "a.ies"}},
+      {"name": "second set", "light": {"type": "ies", "file": "a.ldt", "lamp_set": 2, "scale": 0.5}},
+      {"name": "red", "light": {"type": "ies", "file": "a.ies", "flux_lm": 50, "scale": 2, "color": [2, 0, 0]}}]})");
+    const auto light = [&](std::string_view name) { return *scene.nodes().find(scene.find_node(name))->light; };
+    EXPECT_EQ(light("as measured").type, LightType::luminaire);
+    EXPECT_EQ(light("as measured").luminaire->name, "/base/a.ies");
+    EXPECT_EQ(light("as measured").intensity, glm::vec3(100));
+    EXPECT_EQ(light("second set").intensity, glm::vec3(100));
+    EXPECT_NEAR(flux_lm(light("red")), 100, 1e-3);
+    EXPECT_EQ(light("red").intensity.y, 0);
+}
+
 TEST(SceneFile, ReadsLightsInPhysicalUnits) {
     const Scene scene = parsed(R"({"heliodon": 1, "nodes": [
         {"name": "rgb", "light": {"type": "point", "intensity_cd": [1,2,3], "radius_m": 0.1}},

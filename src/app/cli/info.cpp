@@ -23,6 +23,21 @@ ordered_json vector_json(glm::vec3 v) {
     return {v.x, v.y, v.z};
 }
 
+ordered_json luminaire_json(ordered_json entry, const Light& light) {
+    const Luminaire& luminaire = *light.luminaire;
+    entry["type"] = "ies";
+    entry["luminaire"] = luminaire.name;
+    entry["intensity_cd"] = vector_json(light.intensity);
+    entry["flux_lm"] = flux_lm(light);
+    entry["measured_flux_lm"] = luminaire.flux_lm;
+    entry["measured_peak_cd"] = luminaire.peak_cd;
+    entry["planes"] = luminaire.web.azimuth_rad.size();
+    entry["polar_angles"] = luminaire.web.polar_rad.size();
+    entry["opening"] = describe(luminaire.opening);
+    entry["opening_m"] = vector_json(luminaire.opening.size_m);
+    return entry;
+}
+
 ordered_json light_json(const Node& node) {
     const Light& light = *node.light;
     ordered_json entry = {{"name", node.name}};
@@ -31,6 +46,7 @@ ordered_json light_json(const Node& node) {
         entry["illuminance_lux"] = vector_json(light.intensity);
         return entry;
     }
+    if (light.luminaire) return luminaire_json(std::move(entry), light);
     entry["type"] = light.type == LightType::spot ? "spot" : light.lambertian ? "lambertian" : "point";
     entry["intensity_cd"] = vector_json(light.intensity);
     entry["flux_lm"] = flux_lm(light);
@@ -84,6 +100,16 @@ std::string mebibytes(const ordered_json& bytes) {
     return fmt::format("{:.1f} MiB", bytes.get<double>() / (1024.0 * 1024.0));
 }
 
+std::string luminaire_text(const ordered_json& light) {
+    std::string text =
+        fmt::format("{:.6g} lm, peak {} cd, measured {:.6g} lm and {:.6g} cd in {} planes of {} angles, {}",
+                    light["flux_lm"].get<double>(), vector_text(light["intensity_cd"]), light["measured_flux_lm"].get<double>(),
+                    light["measured_peak_cd"].get<double>(), light["planes"].get<std::size_t>(),
+                    light["polar_angles"].get<std::size_t>(), light["opening"].get<std::string>());
+    if (light["opening"] != "point") text += " of " + vector_text(light["opening_m"]) + " m";
+    return text + "\n";
+}
+
 std::string as_text(const ordered_json& report) {
     std::string text;
     for (const char* key : {"nodes", "drawn_parts", "meshes", "triangles", "materials", "textures", "animations"})
@@ -100,6 +126,10 @@ std::string as_text(const ordered_json& report) {
     for (const auto& light : report["lights"]) {
         text +=
             fmt::format("{:<16}{}, {}, ", "light", light["name"].get<std::string>(), light["type"].get<std::string>());
+        if (light.contains("luminaire")) {
+            text += luminaire_text(light);
+            continue;
+        }
         text += light.contains("flux_lm") ? fmt::format("{:.4g} lm, {} cd\n", light["flux_lm"].get<double>(),
                                                         vector_text(light["intensity_cd"]))
                                           : fmt::format("{} lux\n", vector_text(light["illuminance_lux"]));

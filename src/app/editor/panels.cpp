@@ -85,7 +85,7 @@ bool edit_light(Light& light) {
         edited |= degrees_slider("angular diameter", light.angular_diameter_rad, 0.0f, 20.0f);
         return edited;
     }
-    edited |= ImGui::DragFloat("radius", &light.radius_m, 0.001f, 0.0f, 10.0f, "%.3f m");
+    if (!light.luminaire) edited |= ImGui::DragFloat("radius", &light.radius_m, 0.001f, 0.0f, 10.0f, "%.3f m");
     if (light.type == LightType::spot) {
         edited |= degrees_slider("inner", light.inner_rad, 0.0f, 89.0f);
         edited |= degrees_slider("outer", light.outer_rad, 0.5f, 90.0f);
