@@ -8,6 +8,7 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,6 +25,7 @@ namespace heliodon::codecs {
 namespace {
 
 constexpr const char* ev100_attribute = "ev100";
+constexpr std::string_view own_attributes = "heliodon.";  // what the names of Picture::attributes begin with there
 
 class MemoryInput : public Imf::IStream {
 public:
@@ -232,6 +234,12 @@ Result<Picture> decode_exr(std::string_view bytes) {
         picture.ev100 = ev100->value();
         picture.has_ev100 = true;
     }
+    for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
+        const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
+        const std::string_view name = attribute.name();
+        if (text != nullptr && name.starts_with(own_attributes))
+            picture.attributes[std::string(name.substr(own_attributes.size()))] = text->value();
+    }
     return picture;
 }
 
@@ -240,6 +248,8 @@ Result<std::string> encode_exr(const Picture& picture) {
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::addWhiteLuminance(header, 1.0f);  // values are cd/m²
     if (picture.has_ev100) header.insert(ev100_attribute, Imf::FloatAttribute(picture.ev100));
+    for (const auto& [name, text] : picture.attributes)
+        header.insert(std::string(own_attributes) + name, Imf::StringAttribute(text));
     Imf::FrameBuffer buffer;
     if (auto added = add_channels(header, buffer, "", picture.image); !added) return tl::unexpected(added.error());
     for (const Layer& layer : picture.layers) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ struct Picture {
     std::vector<Layer> layers;  ///< AOVs, in the order asked for
     float ev100 = 0.0f;         ///< exposure of the camera that took it
     bool has_ev100 = false;
+    std::map<std::string, std::string> attributes;  ///< Heliodon's own notes in an EXR, by name
 };
 
 }  // namespace heliodon

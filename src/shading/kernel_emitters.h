@@ -252,7 +252,7 @@ SHADING_FN KernelLightSample kernel_sample_light(SHADING_IN(LightData) light, ve
 }
 
 /// Probability with which kernel_sample_emitters, from there, selects this emitter.
-SHADING_FN float kernel_selection_probability(SHADING_IN(KernelEmitter) emitter, vec3 from, vec3 normal) {
+SHADING_FN float kernel_selection_probability(SHADING_IN(KernelEmitter) emitter, vec3 /*from*/, vec3 /*normal*/) {
     return emitter.probability;
 }
 

@@ -6,6 +6,7 @@
 #include <exception>
 #include <glm/gtc/matrix_access.hpp>
 
+#include "core/units.h"
 #include "trace/measure.h"
 #include "trace/render_loop.h"
 
@@ -34,8 +35,11 @@ Result<void> check_options(const PathOptions& options) {
     if (options.width < 1 || options.height < 1 || options.width > most || options.height > most)
         return fail("", fmt::format("expected a picture size from 1x1 to {0}x{0}, found {1}x{2}", most, options.width,
                                     options.height));
-    if (options.samples_per_pixel < 1)
-        return fail("", fmt::format("expected at least 1 sample, found {}", options.samples_per_pixel));
+    if (options.samples_per_pixel < 1 || options.samples_per_pixel > most_samples_per_pixel)
+        return fail("", fmt::format("expected 1 to {} samples, found {}", most_samples_per_pixel,
+                                    options.samples_per_pixel));
+    if (options.target_error && !(*options.target_error > 0))
+        return fail("", fmt::format("expected a target error above 0, found {}", *options.target_error));
     if (options.max_depth < 0)
         return fail("", fmt::format("expected a depth of 0 (unlimited) or more, found {}", options.max_depth));
     if (options.seconds && !(*options.seconds > 0))
@@ -120,10 +124,14 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
     if (!state_->ready) return fail("", "expected the tracer to have followed the scene before it renders");
     trace::CpuKernel kernel = state_->kernel(options);
     set_camera(camera, options, kernel.frame);
+    if (trace::wants_variance(options)) kernel.frame.sample_streams = trace::variance_streams;
+    constexpr double floor = 0.01;  // of the luminance that the camera shows as white
     PathStatistics counted;
-    Picture picture = trace::render_picture(kernel, state_->embree, options, counted, progress);
-    picture.ev100 = camera.ev100();
-    picture.has_ev100 = true;
+    auto picture = trace::render_picture(kernel, state_->embree, options, floor / units::exposure_scale(camera.ev100()),
+                                         counted, progress);
+    if (!picture) return picture;
+    picture->ev100 = camera.ev100();
+    picture->has_ev100 = true;
     if (statistics) *statistics = counted;
     return picture;
 } catch (const std::exception& exception) {

@@ -14,15 +14,28 @@
 
 namespace heliodon {
 
+/// Up to here samples are counted exactly wherever a count is stored.
+inline constexpr int most_samples_per_pixel = 1 << 24;
+
+/// Whether a picture takes along what a later render needs to go on from it (PathOptions::resume).
+enum class KeepState { never, when_stopped, always };
+
 struct PathOptions {
     int width = 1024, height = 768;
-    int samples_per_pixel = 64;     ///< measure: samples a sensor
-    std::optional<double> seconds;  ///< stop after this long instead of after samples_per_pixel
+    int samples_per_pixel = 64;     ///< at most; measure: samples a sensor
+    std::optional<double> seconds;  ///< stop after this long at the latest
     int max_depth = 0;              ///< scattering events; 0 = unlimited, 1 = direct light only
     bool environment = true;        ///< false: the sky gives no light and is black
     std::uint32_t seed = 0;
     int threads = 0;                ///< 0 = all cores; the picture does not depend on it
-    std::vector<std::string> aovs;  ///< albedo normal depth position direct indirect
+    /// measure: sample on until each 95 % half-width is this share of its value; render: the relative standard error
+    /// of the luminance at which a part of the picture is done (docs/path-tracing.md).
+    std::optional<double> target_error;
+    double target_floor = 0;        ///< measure: to the target error smaller values count as this
+    std::vector<std::string> aovs;  ///< albedo normal depth position direct indirect variance samples
+    KeepState keep_state = KeepState::never;
+    const Picture* resume = nullptr;  ///< a picture with state, of the same scene and options, to go on from
+    std::string resume_name;          ///< stands in messages about it
 };
 
 struct PathStatistics {
@@ -30,6 +43,9 @@ struct PathStatistics {
     int samples_per_pixel = 0;
     std::uint64_t rays = 0;
     std::uint64_t non_finite_samples = 0;  ///< paths whose radiance was no number; they count as black
+    double mean_samples_per_pixel = 0;     ///< less than samples_per_pixel where a target error was reached early
+    std::optional<double> target_reached;  ///< the part of the picture that reached the target error
+    bool stopped = false;                  ///< `progress` asked to stop before the end
 };
 
 /// What one update of the tracing database did (tests read it).

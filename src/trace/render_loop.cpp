@@ -1,7 +1,7 @@
 #include "trace/render_loop.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range2d.h>
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -14,21 +14,26 @@
 #include <cmath>
 #include <optional>
 
+#include "trace/resume.h"
+
 namespace heliodon::trace {
 namespace {
 
-constexpr std::array aov_names{"albedo", "normal", "depth", "position", "direct", "indirect"};
+constexpr std::array aov_names{"albedo", "normal", "depth", "position", "direct", "indirect", "variance", "samples"};
 
 bool is_finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// Blocks are the pieces of work that threads take. `visit(block)` gets each once.
 template <class Visit>
-void each_pixel(const PathOptions& options, Visit&& visit) {
-    constexpr int tile = 16;
-    const tbb::blocked_range2d<int> range(0, options.height, tile, 0, options.width, tile);
+void each_block(const Blocks& blocks, Visit&& visit) {
     tbb::parallel_for(
-        range, [&](const tbb::blocked_range2d<int>& part) { visit(part); }, tbb::simple_partitioner());
+        tbb::blocked_range<int>(0, blocks.count()),
+        [&](const tbb::blocked_range<int>& part) {
+            for (int block = part.begin(); block < part.end(); ++block) visit(block);
+        },
+        tbb::simple_partitioner());
 }
 
 /// What the first surface that the camera meets through a pixel is like, summed over samples.
@@ -75,23 +80,91 @@ void add_surface_layers(const CpuKernel& shared_kernel, const EmbreeScene& scene
     const int count = std::min(samples, most_samples);
     std::array<Image, 4> images{Image(options.width, options.height, 3), Image(options.width, options.height, 3),
                                 Image(options.width, options.height, 1), Image(options.width, options.height, 3)};
-    each_pixel(options, [&](const tbb::blocked_range2d<int>& part) {
+    const Blocks blocks{options.width, options.height};
+    each_block(blocks, [&](int block) {
         CpuKernel kernel = shared_kernel;
-        for (int y = part.rows().begin(); y < part.rows().end(); ++y)
-            for (int x = part.cols().begin(); x < part.cols().end(); ++x) {
-                FirstSurface sum;
-                for (int i = 0; i < count; ++i) add_first_surface(kernel, scene, kernel.path_begin(x, y, i), sum);
-                const double hits = std::max(1, sum.hits);
-                for (int c = 0; c < 3; ++c) {
-                    images[0].at(x, y, c) = static_cast<float>(sum.albedo[c] / count);
-                    images[1].at(x, y, c) = static_cast<float>(sum.normal[c] / count);
-                    images[3].at(x, y, c) = static_cast<float>(sum.position[c] / hits);
-                }
-                images[2].at(x, y) = static_cast<float>(sum.depth / hits);
+        blocks.each_pixel(block, [&](int x, int y) {
+            FirstSurface sum;
+            for (int i = 0; i < count; ++i) add_first_surface(kernel, scene, kernel.path_begin(x, y, i), sum);
+            const double hits = std::max(1, sum.hits);
+            for (int c = 0; c < 3; ++c) {
+                images[0].at(x, y, c) = static_cast<float>(sum.albedo[c] / count);
+                images[1].at(x, y, c) = static_cast<float>(sum.normal[c] / count);
+                images[3].at(x, y, c) = static_cast<float>(sum.position[c] / hits);
             }
+            images[2].at(x, y) = static_cast<float>(sum.depth / hits);
+        });
     });
     for (std::size_t i = 0; i < images.size(); ++i)
         if (wants(options, aov_names[i])) picture.layers.push_back({aov_names[i], std::move(images[i])});
+}
+
+/// Adds samples begin to end of one block's pixels, as far as they are still wanted.
+void add_block_samples(CpuKernel& kernel, const EmbreeScene& scene, int block, int begin, int end,
+                       Accumulation& picture, PathCounts& counts) {
+    const AdaptiveSampling::Want want =
+        picture.adaptive ? picture.adaptive->want(block) : AdaptiveSampling::Want{{true, true}, {false, false}};
+    if (!want.any()) return;
+    picture.blocks.each_pixel(block, [&](int x, int y) {
+        const std::size_t pixel = static_cast<std::size_t>(y) * picture.blocks.width + x;
+        for (int i = begin; i < end; ++i) {
+            const int half = i & 1;
+            if (!want.half(half)) continue;
+            shading::PathState path = kernel.path_begin(x, y, i);
+            const PathResult result = follow_path(kernel, scene, path, counts);
+            if (want.picture[half]) picture.sums.add(pixel, i, result);
+            if (want.decision[half]) picture.adaptive->add(pixel, i, units::luminance(result.radiance));
+        }
+    });
+}
+
+/// The sums' pictures and how much work they are.
+void write_layers(const Accumulation& accumulation, const PathOptions& options, Picture& picture,
+                  PathStatistics& statistics) {
+    const Blocks& blocks = accumulation.blocks;
+    const SampleSums& sums = accumulation.sums;
+    picture.image = Image(options.width, options.height, 3);
+    const bool split = wants(options, "direct") || wants(options, "indirect");
+    Image direct, indirect, variance, samples(options.width, options.height, 1);
+    if (split) direct = indirect = picture.image;
+    if (wants(options, "variance")) variance = samples;
+    double total = 0;
+    for (int block = 0; block < blocks.count(); ++block) {
+        const SamplesTaken taken = accumulation.taken(block);
+        const int count = samples_in_half(taken.half[0], 0) + samples_in_half(taken.half[1], 1);
+        blocks.each_pixel(block, [&](int x, int y) {
+            const std::size_t pixel = static_cast<std::size_t>(y) * options.width + x;
+            const glm::dvec3 mean = pixel_mean(sums, sums.radiance, pixel, taken);
+            const glm::dvec3 part = split ? pixel_mean(sums, sums.direct, pixel, taken) : glm::dvec3(0);
+            for (int c = 0; c < 3; ++c) {
+                picture.image.at(x, y, c) = static_cast<float>(mean[c]);
+                if (!split) continue;
+                direct.at(x, y, c) = static_cast<float>(part[c]);
+                indirect.at(x, y, c) = static_cast<float>(mean[c] - part[c]);
+            }
+            if (!variance.pixels.empty()) variance.at(x, y) = static_cast<float>(pixel_variance(sums, pixel, taken));
+            samples.at(x, y) = static_cast<float>(count);
+            total += count;
+        });
+    }
+    statistics.mean_samples_per_pixel = total / (static_cast<double>(options.width) * options.height);
+    const auto keep = [&](const char* name, Image& image) {
+        if (wants(options, name)) picture.layers.push_back({name, std::move(image)});
+    };
+    keep("direct", direct);
+    keep("indirect", indirect);
+    keep("variance", variance);
+    keep("samples", samples);
+}
+
+Accumulation begin_picture(const PathOptions& options, double floor_nits) {
+    const std::size_t pixels = static_cast<std::size_t>(options.width) * options.height;
+    const bool split = wants(options, "direct") || wants(options, "indirect");
+    Accumulation picture;
+    picture.blocks = {options.width, options.height};
+    picture.sums = SampleSums(pixels, wants_variance(options), split);
+    if (options.target_error) picture.adaptive.emplace(picture.blocks, *options.target_error, floor_nits);
+    return picture;
 }
 
 }  // namespace
@@ -124,64 +197,75 @@ Result<void> check_aovs(const std::vector<std::string>& names) {
     return {};
 }
 
-Picture render_picture(const CpuKernel& shared_kernel, const EmbreeScene& scene, const PathOptions& options,
-                       PathStatistics& statistics, const Progress& progress) {
+bool wants_variance(const PathOptions& options) {
+    return options.target_error || wants(options, "variance");
+}
+
+Result<Picture> render_picture(const CpuKernel& shared_kernel, const EmbreeScene& scene, const PathOptions& options,
+                               double floor_nits, PathStatistics& statistics, const Progress& progress) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-    std::vector<PathResult> sums(static_cast<std::size_t>(options.width) * options.height);
+    Accumulation work = begin_picture(options, floor_nits);
+    if (options.resume)
+        if (auto restored = restore_state(*options.resume, render_identity(shared_kernel, options), work); !restored)
+            return fail(options.resume_name, restored.error().message);
+    const int begin = work.done, most = options.samples_per_pixel;
+    if (begin > most)
+        return fail(options.resume_name,
+                    fmt::format("expected at most {} samples a pixel to go on from, found {}", most, begin));
+
     std::atomic<std::uint64_t> rays = 0, non_finite = 0;
-    const auto add_samples = [&](int begin, int end) {
-        each_pixel(options, [&](const tbb::blocked_range2d<int>& part) {
+    const auto add_samples = [&](int end) {
+        each_block(work.blocks, [&](int block) {
             CpuKernel kernel = shared_kernel;
             PathCounts counts;
-            for (int y = part.rows().begin(); y < part.rows().end(); ++y)
-                for (int x = part.cols().begin(); x < part.cols().end(); ++x) {
-                    PathResult& sum = sums[static_cast<std::size_t>(y) * options.width + x];
-                    for (int i = begin; i < end; ++i) {
-                        shading::PathState path = kernel.path_begin(x, y, i);
-                        const PathResult result = follow_path(kernel, scene, path, counts);
-                        sum.radiance += result.radiance;
-                        sum.direct += result.direct;
-                    }
-                }
+            add_block_samples(kernel, scene, block, work.done, end, work, counts);
             rays += counts.rays;
             non_finite += counts.non_finite;
         });
+        work.done = end;
+    };
+    const auto finished = [&] {
+        if (work.done >= most || (work.adaptive && work.adaptive->finished())) return true;
+        return options.seconds && work.done > begin && elapsed() >= *options.seconds;
+    };
+    // Whole passes over the picture, of so many paths that what a pass costs beside them does not count; after each
+    // the caller hears of it and may stop the work.
+    const double paths_a_pass = options.seconds ? 1 << 15 : 1 << 18;
+    const auto next_stop = [&] {
+        const double pixels = static_cast<double>(options.width) * options.height;
+        const double running = pixels * (work.adaptive ? work.adaptive->running() : 1.0);
+        const int end = work.done + static_cast<int>(std::clamp(paths_a_pass / running, 1.0, 1.0 + (most - work.done)));
+        return std::min({end, most, work.adaptive ? AdaptiveSampling::next_check(work.done) : most});
+    };
+    const auto fraction = [&] {
+        const double by_samples = static_cast<double>(work.done) / most;
+        const double by_error = work.adaptive ? work.adaptive->reached() : 0.0;
+        return std::min(1.0, std::max({by_samples, by_error, options.seconds ? elapsed() / *options.seconds : 0.0}));
     };
 
     Picture picture;
-    int done = 0;
+    bool stopped = false;
     run_on_threads(options.threads, [&] {
-        // Whole passes over the picture: one sample each against the clock, else so many that a pass is some
-        // quarter million paths, after which the caller hears of it and may stop the work.
-        const std::size_t pixels = sums.size();
-        const int step = options.seconds ? 1 : static_cast<int>(std::max<std::size_t>(1, (std::size_t{1} << 18) / pixels));
-        const auto finished = [&] {
-            return options.seconds ? done > 0 && elapsed() >= *options.seconds : done >= options.samples_per_pixel;
-        };
-        while (!finished()) {
-            const int end = options.seconds ? done + step : std::min(done + step, options.samples_per_pixel);
-            add_samples(done, end);
-            done = end;
-            const double fraction =
-                options.seconds ? elapsed() / *options.seconds : static_cast<double>(done) / options.samples_per_pixel;
-            if (progress && !progress(std::min(1.0, fraction))) break;
+        while (!stopped && !finished()) {
+            const int end = next_stop();
+            const bool check = work.adaptive && end == AdaptiveSampling::next_check(work.done);
+            add_samples(end);
+            if (check) work.adaptive->check(end);
+            stopped = progress && !progress(fraction());
         }
-        add_surface_layers(shared_kernel, scene, options, done, picture);
+        add_surface_layers(shared_kernel, scene, options, work.done, picture);
     });
-
-    picture.image = Image(options.width, options.height, 3);
-    Image direct(options.width, options.height, 3), indirect(options.width, options.height, 3);
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            picture.image.pixels[3 * i + c] = static_cast<float>(sums[i].radiance[c] / done);
-            direct.pixels[3 * i + c] = static_cast<float>(sums[i].direct[c] / done);
-            indirect.pixels[3 * i + c] = static_cast<float>((sums[i].radiance[c] - sums[i].direct[c]) / done);
-        }
-    if (wants(options, "direct")) picture.layers.push_back({"direct", std::move(direct)});
-    if (wants(options, "indirect")) picture.layers.push_back({"indirect", std::move(indirect)});
-    statistics = {elapsed(), done, rays, non_finite};
+    statistics.seconds = elapsed();
+    statistics.samples_per_pixel = work.done;
+    statistics.rays = rays;
+    statistics.non_finite_samples = non_finite;
+    statistics.stopped = stopped && !finished();
+    if (work.adaptive) statistics.target_reached = work.adaptive->reached();
+    write_layers(work, options, picture, statistics);
+    if (options.keep_state == KeepState::always || (options.keep_state == KeepState::when_stopped && statistics.stopped))
+        store_state(work, render_identity(shared_kernel, options), picture);
     return picture;
 }
 

@@ -9,13 +9,9 @@
 #include "trace/cpu_kernel.h"
 #include "trace/embree_scene.h"
 #include "trace/path_tracer.h"
+#include "trace/sample_sums.h"
 
 namespace heliodon::trace {
-
-struct PathResult {
-    glm::dvec3 radiance{0};
-    glm::dvec3 direct{0};
-};
 
 /// Rays and mishaps of one thread's share of the work.
 struct PathCounts {
@@ -32,9 +28,13 @@ void run_on_threads(int threads, const std::function<void()>& work);
 
 [[nodiscard]] Result<void> check_aovs(const std::vector<std::string>& names);
 
-/// The picture with its AOVs. Each pixel sums its own samples in order, so that the result depends on
-/// neither the tiles nor the threads.
-[[nodiscard]] Picture render_picture(const CpuKernel& kernel, const EmbreeScene& scene, const PathOptions& options,
-                                     PathStatistics& statistics, const Progress& progress);
+/// Whether the samples of a pixel must say how far they scatter: then they take turns in independent sequences.
+[[nodiscard]] bool wants_variance(const PathOptions& options);
+
+/// The picture with its AOVs, and the state to go on from where the options want it. `floor_nits`: a target error is
+/// relative to √(L² + floor²).
+[[nodiscard]] Result<Picture> render_picture(const CpuKernel& kernel, const EmbreeScene& scene,
+                                             const PathOptions& options, double floor_nits, PathStatistics& statistics,
+                                             const Progress& progress);
 
 }  // namespace heliodon::trace

@@ -89,7 +89,7 @@ Result<EqualError> find_equal_error(const Scene& scene, const Camera& camera, co
     Tracing tracing(scene, camera, frame.width, frame.height);
     if (auto prepared = tracing.prepare(); !prepared) return tl::unexpected(prepared.error());
     constexpr double reference_share = 0.4;  // of the time, for each; a quarter and a sixteenth of it for the others
-    auto first = tracing.render(reference_share * path_seconds, 1, "path reference");
+    auto first = tracing.render(reference_share * path_seconds, most_samples_per_pixel, "path reference");
     if (!first) return tl::unexpected(first.error());
     EqualError result;
     result.threads = std::max(1u, std::thread::hardware_concurrency());

@@ -59,7 +59,8 @@ FrameRange read_frames(const std::string& text) {
 
 std::vector<std::string> read_aovs(const std::string& text) {
     static constexpr std::string_view known[] = {"albedo", "normal",   "depth", "position", "direct",
-                                                 "indirect", "ao", "voxels", "opacity"};
+                                                 "indirect", "variance", "samples", "ao", "voxels",
+                                                 "opacity"};
     std::vector<std::string> names = CLI::detail::split(text, ',');
     for (const std::string& name : names)
         if (std::find(std::begin(known), std::end(known), name) == std::end(known))
@@ -95,6 +96,10 @@ int read_voxels(const std::string& text) {
 
 bool is_voxel_aov(const std::string& name) {
     return name == "ao" || name == "voxels" || name == "opacity";
+}
+
+bool is_path_aov(const std::string& name) {
+    return name == "variance" || name == "samples";
 }
 
 std::string check_positive(const std::string& text) {

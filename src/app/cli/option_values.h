@@ -23,7 +23,7 @@ struct FrameRange {
 /// `A..B`, both included, A ≤ B, not negative.
 [[nodiscard]] FrameRange read_frames(const std::string& text);
 
-/// Comma-separated names out of albedo, normal, depth, position, direct, indirect, and those of is_voxel_aov.
+/// Comma-separated names out of albedo, normal, depth, position, direct, indirect, and those of is_voxel_aov and is_path_aov.
 [[nodiscard]] std::vector<std::string> read_aovs(const std::string& text);
 
 /// A number; `auto` and other tone and exposure choices that this version lacks are said to be lacking.
@@ -36,6 +36,8 @@ void check_tonemap(const std::string& text);
 [[nodiscard]] int read_voxels(const std::string& text);
 /// Whether the AOV shows the voxel volume: ao, voxels, opacity.
 [[nodiscard]] bool is_voxel_aov(const std::string& name);
+/// Whether the AOV tells of the path tracer's samples: variance, samples.
+[[nodiscard]] bool is_path_aov(const std::string& name);
 
 /// Validators of numbers: empty, or what was expected and found.
 [[nodiscard]] std::string check_positive(const std::string& text);

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -29,8 +30,10 @@ struct RenderOptions {
     std::string camera;
     RealtimeSettings device;
     std::uint32_t seed = 0;
-    int samples = 64;
+    std::optional<int> samples;
     std::optional<double> seconds;
+    std::optional<double> target_error;
+    bool resume = false;
     int max_depth = 0;
     int threads = 0;
     bool no_environment = false;
@@ -49,7 +52,21 @@ struct Rendered {
     Picture picture;
     json statistics;
     std::string summary;
+    bool stopped = false;  ///< before its end: the picture is what there was by then
+    int samples = 0;       ///< a pixel
 };
+
+constexpr int default_samples = 64;
+
+bool is_exr(const std::string& path) {
+    return CLI::detail::to_lower(path).ends_with(".exr");
+}
+/// The output that interrupted work is stored in and taken up from, if there is one.
+std::optional<std::string> resumable_output(const RenderOptions& options) {
+    const auto found = std::find_if(options.outputs.begin(), options.outputs.end(), is_exr);
+    if (found == options.outputs.end() || options.frames) return std::nullopt;
+    return *found;
+}
 
 /// One engine behind one call; both follow the same scene object from frame to frame.
 class Renderer {
@@ -61,11 +78,19 @@ public:
 
 class PathRenderer final : public Renderer {
 public:
-    explicit PathRenderer(const RenderOptions& options) {
+    /// `resume`: what the output to go on from holds, where it is there.
+    PathRenderer(const RenderOptions& options, std::optional<Picture> resume) : resume_(std::move(resume)) {
         options_.width = options.size.width;
         options_.height = options.size.height;
-        options_.samples_per_pixel = options.samples;
+        const bool ends_otherwise = options.seconds || options.target_error;
+        options_.samples_per_pixel = options.samples.value_or(ends_otherwise ? most_samples_per_pixel : default_samples);
         options_.seconds = options.seconds;
+        options_.target_error = options.target_error;
+        if (const auto output = resumable_output(options)) {
+            options_.keep_state = options.resume ? KeepState::always : KeepState::when_stopped;
+            options_.resume = resume_ ? &*resume_ : nullptr;
+            options_.resume_name = *output;
+        }
         options_.max_depth = options.max_depth;
         options_.environment = !options.no_environment;
         options_.seed = options.seed;
@@ -79,17 +104,27 @@ public:
         auto picture = tracer_.render(scene, camera, options_, &numbers, progress);
         if (!picture) return tl::unexpected(picture.error());
         const double rate = numbers.seconds > 0 ? static_cast<double>(numbers.rays) / numbers.seconds : 0;
-        return Rendered{std::move(*picture),
-                        {{"seconds", numbers.seconds},
-                         {"spp", numbers.samples_per_pixel},
-                         {"rays_per_second", rate},
-                         {"peak_rss_bytes", peak_rss_bytes()}},
-                        fmt::format("path tracer: {:.2f} s, {} samples a pixel, {:.2f} million rays a second",
-                                    numbers.seconds, numbers.samples_per_pixel, rate * 1e-6)};
+        Rendered rendered{std::move(*picture),
+                          {{"seconds", numbers.seconds},
+                           {"spp", numbers.samples_per_pixel},
+                           {"rays_per_second", rate},
+                           {"peak_rss_bytes", peak_rss_bytes()}},
+                          fmt::format("path tracer: {:.2f} s, {} samples a pixel, {:.2f} million rays a second",
+                                      numbers.seconds, numbers.samples_per_pixel, rate * 1e-6),
+                          numbers.stopped,
+                          numbers.samples_per_pixel};
+        if (numbers.target_reached) {
+            rendered.statistics["spp_mean"] = numbers.mean_samples_per_pixel;
+            rendered.statistics["target_reached"] = *numbers.target_reached;
+            rendered.summary += fmt::format(" ({:.1f} on average); {:.1f} % of the picture within the target error",
+                                            numbers.mean_samples_per_pixel, 100 * *numbers.target_reached);
+        }
+        return rendered;
     }
 
 private:
     PathTracer tracer_;
+    std::optional<Picture> resume_;
     PathOptions options_;
 };
 
@@ -98,7 +133,7 @@ public:
     RealtimePictureRenderer(RealtimeRenderer renderer, const RenderOptions& options) : renderer_(std::move(renderer)) {
         options_.width = options.size.width;
         options_.height = options.size.height;
-        options_.samples = options.samples;
+        options_.samples = options.samples.value_or(default_samples);
         options_.seed = options.seed;
         options_.environment = !options.no_environment;
         options_.frames_timed = options.frames_timed;
@@ -125,7 +160,8 @@ public:
                          {"gpu_memory_bytes", numbers.gpu_memory_bytes},
                          {"vertex_bytes", numbers.vertex_bytes},
                          {"peak_rss_bytes", peak_rss_bytes()}},
-                        std::move(summary)};
+                        std::move(summary),
+                        interrupted()};
     }
 
 private:
@@ -134,7 +170,15 @@ private:
 };
 
 Result<std::unique_ptr<Renderer>> create_renderer(const RenderOptions& options) {
-    if (options.engine == Engine::path) return std::make_unique<PathRenderer>(options);
+    if (options.engine == Engine::path) {
+        std::optional<Picture> resume;
+        if (const auto output = resumable_output(options); options.resume && std::filesystem::exists(*output)) {
+            auto picture = read_picture(*output);
+            if (!picture) return tl::unexpected(picture.error());
+            resume = std::move(*picture);
+        }
+        return std::make_unique<PathRenderer>(options, std::move(resume));
+    }
     auto renderer = RealtimeRenderer::create(options.device);
     if (!renderer) return tl::unexpected(renderer.error());
     return std::make_unique<RealtimePictureRenderer>(std::move(*renderer), options);
@@ -148,13 +192,20 @@ std::vector<std::string> frame_outputs(const RenderOptions& options, int frame) 
 
 /// Option values that are each right but do not go together.
 void check_together(const RenderOptions& options) {
-    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
-        return CLI::detail::to_lower(path).ends_with(".exr");
-    });
+    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), is_exr);
     if (!options.aovs.empty() && !has_exr)
         throw CLI::ValidationError("--aov", "expected an .exr output to hold the layers");
-    if (options.engine == Engine::realtime && (options.seconds || options.max_depth != 0))
-        throw CLI::ValidationError(options.seconds ? "--seconds" : "--max-depth", "expected with --engine path");
+    if (options.engine == Engine::realtime) {
+        const char* of_paths = options.seconds          ? "--seconds"
+                               : options.target_error   ? "--target-error"
+                               : options.resume         ? "--resume"
+                               : options.max_depth != 0 ? "--max-depth"
+                                                        : nullptr;
+        if (of_paths) throw CLI::ValidationError(of_paths, "expected with --engine path");
+    }
+    if (options.resume && !resumable_output(options))
+        throw CLI::ValidationError("--resume", options.frames ? "expected one picture, found --frames"
+                                                              : "expected an .exr output to go on from");
     if (options.engine == Engine::path && options.frames_timed > 0)
         throw CLI::ValidationError("--frames-timed", "expected with --engine realtime");
     if (options.engine == Engine::path && options.gi.given())
@@ -165,7 +216,9 @@ void check_together(const RenderOptions& options) {
 void check_aovs(const RenderOptions& options, const Scene& scene) {
     const bool has_volume = options.engine == Engine::realtime && scene.render_settings().gi == "vct";
     for (const std::string& name : options.aovs)
-        if (is_voxel_aov(name) && !has_volume)
+        if (is_path_aov(name) && options.engine != Engine::path)
+            throw CLI::ValidationError("--aov", fmt::format("{}: expected with --engine path", name));
+        else if (is_voxel_aov(name) && !has_volume)
             throw CLI::ValidationError("--aov", fmt::format("{} shows the voxel volume: expected --engine realtime "
                                                             "with --gi vct (or render.gi in the scene)", name));
 }
@@ -178,12 +231,19 @@ Result<void> render_frame(Renderer& renderer, const Scene& scene, const RenderOp
 
     ProgressBar bar(options.frames ? fmt::format("frame {}", frame) : "render");
     auto rendered = renderer.render(scene, *camera, bar.callback());
-    if (interrupted()) return fail("", "interrupted");
-    if (!rendered) return tl::unexpected(rendered.error());
+    if (!rendered) return interrupted() ? fail("", "interrupted") : tl::unexpected(rendered.error());
+    const bool stopped = rendered->stopped;
+    if (stopped && (options.engine == Engine::realtime || options.frames)) return fail("", "interrupted");
     rendered->picture.ev100 = camera->ev100();
     rendered->picture.has_ev100 = true;
     for (const std::string& path : frame_outputs(options, frame))
         if (auto written = write_rendered(path, rendered->picture); !written) return written;
+    if (stopped) {
+        const auto output = resumable_output(options);
+        return fail("", fmt::format("interrupted after {} samples a pixel: {} the picture so far, {}", rendered->samples,
+                                    options.outputs.size() == 1 ? options.outputs[0] + " is" : "the outputs are",
+                                    output ? "and --resume goes on from " + *output : "which only an .exr can be gone on from"));
+    }
     if (!options.frames) {
         say(rendered->summary);
         statistics = std::move(rendered->statistics);
@@ -229,11 +289,22 @@ void declare_engine_options(CLI::App& command, RenderOptions& options) {
     command.add_option("--seed", options.seed, "Seed of the samples")->check(check_not_negative);
     command.add_flag("--no-environment", options.no_environment, "The sky gives no light and is black");
     add_gi_options(command, options.gi);
-    CLI::Option* samples = command.add_option("--spp", options.samples, "Samples a pixel (real-time engine: frames averaged); default 64")
+    command
+        .add_option("--spp", options.samples,
+                    "Samples a pixel (real-time engine: frames averaged); default 64. With --seconds or --target-error: "
+                    "at most")
         ->check(check_positive);
-    command.add_option("--seconds", options.seconds, "Path engine: stop after this long instead")
-        ->check(check_positive)
-        ->excludes(samples);
+    command.add_option("--seconds", options.seconds, "Path engine: stop after this long at the latest")
+        ->check(check_positive);
+    command
+        .add_option("--target-error", options.target_error,
+                    "Path engine: stop where the relative standard error of the luminance is at most this: the root "
+                    "mean square over the pixels of a block of 8x8, at the upper end of its 95 % confidence interval, "
+                    "relative to the pixel's luminance or, where that is less, to 1 % of what the camera shows as white")
+        ->check(check_positive);
+    command.add_flag("--resume", options.resume,
+                     "Path engine: go on from the .exr output, if it is there, and keep in it what going on needs. "
+                     "Ctrl-C keeps it always");
     command
         .add_option("--max-depth", options.max_depth,
                     "Path engine: scattering events, 1 = direct light; default unlimited")
@@ -267,7 +338,8 @@ void declare_picture_options(CLI::App& command, RenderOptions& options) {
         "--tonemap", [](Text text) { check_tonemap(text); }, "Tone curve: hable");
     command.add_option_function<std::string>(
         "--aov", [&](Text text) { options.aovs = read_aovs(text); },
-        "Extra EXR layers: albedo,normal,depth,position,direct,indirect; with --gi vct: ao,voxels,opacity");
+        "Extra EXR layers: albedo,normal,depth,position,direct,indirect; with --engine path: variance (of the pixel's mean "
+        "luminance), samples; with --gi vct: ao,voxels,opacity");
     command.add_option_function<std::string>(
         "--frames", [&](Text text) { options.frames = read_frames(text); },
         "FIRST..LAST of the animation, one numbered output each (### in its name)");
