@@ -69,7 +69,7 @@ SHADING_FN MaterialPoint material_combine(MaterialData m, MaterialTexels t, vec4
     p.surface.transmission = clamp(m.transmission * t.transmission, 0.0f, 1.0f);
     p.surface.clearcoat = clamp(m.clearcoat * t.clearcoat, 0.0f, 1.0f);
     p.surface.clearcoat_roughness = clamp(m.clearcoat_roughness * t.clearcoat_roughness, 0.0f, 1.0f);
-    p.surface.model = m.model;
+    p.surface.model = m.model == material_model_thin ? material_model_standard : m.model;  // what a pane reflects is a mirror's
     p.surface.inside = inside && m.model == material_model_standard && p.surface.transmission > 0.0f;
     p.emission = m.emission_nits * t.emission;
     if (m.model == material_model_unlit) {
