@@ -148,6 +148,9 @@ enum class Voxelizer : std::uint8_t { automatic, raster, compute };
 /// Who rasterizes the picture and the shadow maps: likewise.
 enum class Rasterizer : std::uint8_t { automatic, hardware, compute };
 
+/// How the path engine makes pictures.
+enum class Integrator : std::uint8_t { path, bidirectional };
+
 /// What a voxel shows: its own value to each of six sides, or one value to all (docs/gi-theory.md).
 enum class VoxelFiltering : std::uint8_t { anisotropic, isotropic };
 
@@ -174,9 +177,10 @@ struct RenderSettings {
     Revoxelize revoxelize = Revoxelize::changed;
     Voxelizer voxelizer = Voxelizer::automatic;
     Rasterizer rasterizer = Rasterizer::automatic;
+    Integrator integrator = Integrator::path;
     ConeTracingSettings vct;
     std::string tonemap = "hable";
-    int shadow_map_size = 2048;
+    int shadow_map_size = 0;  ///< texels an edge of a shadow map; 0: as the picture can tell, 2048 at most
 };
 
 /// One entry of the journal: which table, which slot, what about it changed.

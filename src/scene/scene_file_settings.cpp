@@ -209,6 +209,9 @@ RenderSettings read_render_settings(const JsonCursor& cursor) {
     if (const auto rasterizer = object.find("rasterizer"))
         settings.rasterizer = rasterizer->one_of<Rasterizer>(
             {{"automatic", Rasterizer::automatic}, {"hardware", Rasterizer::hardware}, {"compute", Rasterizer::compute}});
+    if (const auto integrator = object.find("integrator"))
+        settings.integrator = integrator->one_of<Integrator>(
+            {{"path", Integrator::path}, {"bidirectional", Integrator::bidirectional}});
     if (const auto vct = object.find("vct")) settings.vct = read_cone_tracing(*vct);
     if (const auto tonemap = object.find("tonemap"))
         settings.tonemap = tonemap->one_of<std::string>({{"hable", "hable"}});

@@ -46,14 +46,18 @@ SHADING_FN float kernel_sky_cell_pdf(uint row, uint column) {
     const float cap = 2.0f * sin((float(row) + 0.5f) * step) * sin(0.5f * step);
     return share * float(columns) / (2.0f * pi * cap);
 }
+/// Density per steradian with which kernel_sample_sky picks `direction`.
+SHADING_FN float kernel_sky_direction_pdf(vec3 direction) {
+    const vec2 uv = sky_uv(direction, fetch_sky().north_rad);
+    const uint column = min(uint(uv.x * float(kernel_frame().sky_columns)), kernel_frame().sky_columns - 1u);
+    const uint row = min(uint(uv.y * float(kernel_frame().sky_rows)), kernel_frame().sky_rows - 1u);
+    return kernel_sky_cell_pdf(row, column);
+}
 SHADING_FN float kernel_sky_pdf(vec3 direction) {
     if (kernel_frame().sky_emitter == kernel_no_emitter) {
         return 0.0f;
     }
-    const vec2 uv = sky_uv(direction, fetch_sky().north_rad);
-    const uint column = min(uint(uv.x * float(kernel_frame().sky_columns)), kernel_frame().sky_columns - 1u);
-    const uint row = min(uint(uv.y * float(kernel_frame().sky_rows)), kernel_frame().sky_rows - 1u);
-    return kernel_sky_cell_pdf(row, column) * fetch_emitter(kernel_frame().sky_emitter).probability;
+    return kernel_sky_direction_pdf(direction) * fetch_emitter(kernel_frame().sky_emitter).probability;
 }
 SHADING_FN vec3 kernel_sky_radiance(vec3 direction) {
     if (kernel_frame().environment == 0u) {
@@ -259,7 +263,8 @@ SHADING_FN float kernel_selection_probability(SHADING_IN(KernelEmitter) emitter,
 /// One emitter, one direction to it; pdf and light account for the selection. `normal` is the shading normal
 /// on the side that light must come from, or zero where light from both sides counts.
 SHADING_FN KernelLightSample kernel_sample_emitters(vec3 from, vec3 normal, float u_select, vec2 u) {
-    SHADING_IN(KernelEmitter) emitter = fetch_emitter(kernel_select_emitter(u_select));
+    const uint selected = kernel_select_emitter(u_select);
+    SHADING_IN(KernelEmitter) emitter = fetch_emitter(selected);
     KernelLightSample result;
     if (emitter.kind == kernel_emitter_light) {
         result = kernel_sample_light(fetch_light(emitter.index), from, u);
@@ -271,6 +276,7 @@ SHADING_FN KernelLightSample kernel_sample_emitters(vec3 from, vec3 normal, floa
     const float probability = kernel_selection_probability(emitter, from, normal);
     result.pdf *= probability;
     result.light = result.light / max(probability, 1.0e-30f);
+    result.emitter = selected;
     return result;
 }
 

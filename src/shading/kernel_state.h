@@ -81,7 +81,7 @@ struct KernelLightSample {
     vec3 light;      // adds f · |cos θ| · light · visibility
     float distance;  // m, to `target` along `direction`; kernel_infinity for the sky and directional lights
     vec3 target;     // where the shadow ray ends, just in front of the emitter; only for finite distances
-    float padding;
+    uint emitter;    // that was selected
 };
 
 /// Where a ray met a surface, in the world, before its material is looked at.

@@ -247,28 +247,39 @@ SHADING_FN PathState path_begin_illuminance(uint stream, uint sample_index, vec3
 
 // -- taking hits
 
-SHADING_FN void kernel_take_shadow_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHit) hit) {
-    if (hit.kind == kernel_hit_surface) {
-        const KernelPoint point = kernel_point(hit);
-        SHADING_IN(MaterialData) material = fetch_material(point.material);
-        float passing = thin_transmittance(material, dot(path.shadow_direction, point.geometric_normal));
-        if (material.model != material_model_thin) {
-            passing = 1.0f - material_opacity_at(material, point.texcoord0, point.texcoord1, point.color.w);
-        }
-        path.shadow_light = path.shadow_light * passing;
-        path.pass_count += 1u;
-        if (passing > 0.0f && path.pass_count < kernel_most_passes) {
-            const vec3 onward = kernel_offset(point.position, point.error, point.geometric_normal, path.shadow_direction);
-            if (path.shadow_t_max < kernel_infinity) {
-                path.shadow_t_max -= dot(onward - path.shadow_origin, path.shadow_direction);
-            }
-            path.shadow_origin = onward;
-            if (path.shadow_t_max > 0.0f) {
-                return;  // the same stage again
-            }
-        }
+/// Takes what a shadow ray met: `shadow_light` shrinks at what lets light through. True while the ray goes on behind
+/// it; when it ends, `arrived` says whether anything gets to its target.
+SHADING_FN bool kernel_shadow_goes_on(SHADING_INOUT(PathState) path, SHADING_IN(KernelHit) hit, SHADING_OUT(bool) arrived) {
+    arrived = hit.kind == kernel_hit_nothing;
+    if (hit.kind != kernel_hit_surface) {
+        return false;
     }
-    if (hit.kind == kernel_hit_nothing || (hit.kind == kernel_hit_surface && path.shadow_t_max <= 0.0f)) {
+    const KernelPoint point = kernel_point(hit);
+    SHADING_IN(MaterialData) material = fetch_material(point.material);
+    float passing = thin_transmittance(material, dot(path.shadow_direction, point.geometric_normal));
+    if (material.model != material_model_thin) {
+        passing = 1.0f - material_opacity_at(material, point.texcoord0, point.texcoord1, point.color.w);
+    }
+    path.shadow_light = path.shadow_light * passing;
+    path.pass_count += 1u;
+    if (passing <= 0.0f || path.pass_count >= kernel_most_passes) {
+        return false;
+    }
+    const vec3 onward = kernel_offset(point.position, point.error, point.geometric_normal, path.shadow_direction);
+    if (path.shadow_t_max < kernel_infinity) {
+        path.shadow_t_max -= dot(onward - path.shadow_origin, path.shadow_direction);
+    }
+    path.shadow_origin = onward;
+    arrived = path.shadow_t_max <= 0.0f;
+    return !arrived;
+}
+
+SHADING_FN void kernel_take_shadow_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHit) hit) {
+    bool arrived;
+    if (kernel_shadow_goes_on(path, hit, arrived)) {
+        return;  // the same stage again
+    }
+    if (arrived) {
         kernel_add(path, path.shadow_light);
     }
     path.stage = path.after_shadow;

@@ -248,6 +248,8 @@ void normalize(const Draft& draft, EmitterTable& table) {
         for (std::size_t i = draft.group_begin[group]; i < group_end(group); ++i) group_flux[group] += draft.flux[i];
         lit_groups += group_flux[group] > 0 ? 1 : 0;
     }
+    table.total_flux = total;
+    table.lit_groups = static_cast<int>(lit_groups);
     double cumulative = 0;
     for (std::size_t group = 0; group < group_flux.size(); ++group) {
         for (std::size_t i = draft.group_begin[group]; i < group_end(group); ++i) {

@@ -23,6 +23,8 @@ struct EmitterTable {
     std::vector<float> sky_cumulative;
     std::uint32_t sky_columns = 0, sky_rows = 0;
     bool scattered_emission = false;  ///< any light that a scattered ray can meet
+    double total_flux = 0;            ///< lm, of all emitters
+    int lit_groups = 0;               ///< lights, emissive instances and varying skies that give any
 };
 
 [[nodiscard]] EmitterTable build_emitters(const convert::FlatScene& flat, const TextureTable& textures,

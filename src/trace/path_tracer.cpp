@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include "core/units.h"
+#include "trace/bidirectional_loop.h"
 #include "trace/measure.h"
 #include "trace/render_loop.h"
 
@@ -40,6 +41,8 @@ Result<void> check_options(const PathOptions& options) {
                                     options.samples_per_pixel));
     if (options.target_error && !(*options.target_error > 0))
         return fail("", fmt::format("expected a target error above 0, found {}", *options.target_error));
+    if (options.target_error && options.integrator == Integrator::bidirectional)
+        return fail("", "expected no target error with the bidirectional integrator, which samples all pixels alike");
     if (options.max_depth < 0)
         return fail("", fmt::format("expected a depth of 0 (unlimited) or more, found {}", options.max_depth));
     if (options.seconds && !(*options.seconds > 0))
@@ -125,10 +128,16 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
     trace::CpuKernel kernel = state_->kernel(options);
     set_camera(camera, options, kernel.frame);
     if (trace::wants_variance(options)) kernel.frame.sample_streams = trace::variance_streams;
+    trace::EmissionTable emission;
+    trace::AddSamples bidirectional;
+    if (options.integrator == Integrator::bidirectional) {
+        emission = trace::build_emission(state_->flat, state_->emitters, options.environment);
+        bidirectional = trace::bidirectional_samples({kernel, emission}, state_->embree);
+    }
     constexpr double floor = 0.01;  // of the luminance that the camera shows as white
     PathStatistics counted;
     auto picture = trace::render_picture(kernel, state_->embree, options, floor / units::exposure_scale(camera.ev100()),
-                                         counted, progress);
+                                         counted, progress, bidirectional);
     if (!picture) return picture;
     picture->ev100 = camera.ev100();
     picture->has_ev100 = true;

@@ -36,6 +36,7 @@ struct PathOptions {
     KeepState keep_state = KeepState::never;
     const Picture* resume = nullptr;  ///< a picture with state, of the same scene and options, to go on from
     std::string resume_name;          ///< stands in messages about it
+    Integrator integrator = Integrator::path;  ///< of pictures (docs/bidirectional.md); without target_error if bidirectional
 };
 
 struct PathStatistics {
@@ -56,7 +57,7 @@ struct TraceUpdate {
 };
 
 /// The ground truth: unidirectional path tracing with next-event estimation and multiple importance
-/// sampling over the scene's own vertex data. Nothing outside the trace room knows what answers its rays.
+/// sampling over the scene's own vertex data; for pictures also bidirectional. Nothing outside the trace room knows what answers its rays.
 class PathTracer {
 public:
     PathTracer();

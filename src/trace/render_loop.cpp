@@ -202,7 +202,8 @@ bool wants_variance(const PathOptions& options) {
 }
 
 Result<Picture> render_picture(const CpuKernel& shared_kernel, const EmbreeScene& scene, const PathOptions& options,
-                               double floor_nits, PathStatistics& statistics, const Progress& progress) {
+                               double floor_nits, PathStatistics& statistics, const Progress& progress,
+                               const AddSamples& other) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
@@ -216,14 +217,20 @@ Result<Picture> render_picture(const CpuKernel& shared_kernel, const EmbreeScene
                     fmt::format("expected at most {} samples a pixel to go on from, found {}", most, begin));
 
     std::atomic<std::uint64_t> rays = 0, non_finite = 0;
+    const auto count = [&](const PathCounts& counts) {
+        rays += counts.rays;
+        non_finite += counts.non_finite;
+    };
     const auto add_samples = [&](int end) {
-        each_block(work.blocks, [&](int block) {
-            CpuKernel kernel = shared_kernel;
-            PathCounts counts;
-            add_block_samples(kernel, scene, block, work.done, end, work, counts);
-            rays += counts.rays;
-            non_finite += counts.non_finite;
-        });
+        if (other)
+            count(other(work, end));
+        else
+            each_block(work.blocks, [&](int block) {
+                CpuKernel kernel = shared_kernel;
+                PathCounts counts;
+                add_block_samples(kernel, scene, block, work.done, end, work, counts);
+                count(counts);
+            });
         work.done = end;
     };
     const auto finished = [&] {

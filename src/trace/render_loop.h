@@ -31,10 +31,14 @@ void run_on_threads(int threads, const std::function<void()>& work);
 /// Whether the samples of a pixel must say how far they scatter: then they take turns in independent sequences.
 [[nodiscard]] bool wants_variance(const PathOptions& options);
 
+struct Accumulation;
+/// Adds to the picture what is new of the first `end` samples of every pixel.
+using AddSamples = std::function<PathCounts(Accumulation& picture, int end)>;
+
 /// The picture with its AOVs, and the state to go on from where the options want it. `floor_nits`: a target error is
-/// relative to √(L² + floor²).
+/// relative to √(L² + floor²). `other`: instead of unidirectional paths; without a target error.
 [[nodiscard]] Result<Picture> render_picture(const CpuKernel& kernel, const EmbreeScene& scene,
                                              const PathOptions& options, double floor_nits, PathStatistics& statistics,
-                                             const Progress& progress);
+                                             const Progress& progress, const AddSamples& other = {});
 
 }  // namespace heliodon::trace

@@ -122,6 +122,7 @@ RenderIdentity render_identity(const CpuKernel& kernel, const PathOptions& optio
     return {{"format", format_version},
             {"size", fmt::format("{}x{}", options.width, options.height)},
             {"seed", fmt::format("{}", options.seed)},
+            {"integrator", options.integrator == Integrator::bidirectional ? "bidirectional" : "path"},
             {"max-depth", fmt::format("{}", options.max_depth)},
             {"environment", options.environment ? "yes" : "no"},
             {"target-error", options.target_error ? fmt::format("{}", *options.target_error) : "none"},

@@ -35,6 +35,12 @@ Engine read_engine(const std::string& text) {
     refuse("--engine", "realtime or path", text);
 }
 
+Integrator read_integrator(const std::string& text) {
+    if (text == "path") return Integrator::path;
+    if (text == "bidirectional") return Integrator::bidirectional;
+    refuse("--integrator", "path or bidirectional", text);
+}
+
 Size read_size(const std::string& text) {
     constexpr int largest = 16384;  // a side that every Vulkan 1.3 device of note can render to
     const std::size_t x = text.find('x');

@@ -4,12 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "scene/scene.h"
+
 namespace heliodon::cli {
 
 enum class Engine { realtime, path };
 
 /// Readers for option values. What they cannot read is thrown as CLI::ValidationError naming `option`.
 [[nodiscard]] Engine read_engine(const std::string& text);
+[[nodiscard]] Integrator read_integrator(const std::string& text);
 
 struct Size {
     int width = 1024, height = 768;

@@ -35,6 +35,7 @@ struct RenderOptions {
     std::optional<double> target_error;
     bool resume = false;
     int max_depth = 0;
+    std::optional<Integrator> integrator;
     int threads = 0;
     bool no_environment = false;
     GiOptions gi;
@@ -92,6 +93,7 @@ public:
             options_.resume_name = *output;
         }
         options_.max_depth = options.max_depth;
+        integrator_ = options.integrator;
         options_.environment = !options.no_environment;
         options_.seed = options.seed;
         options_.threads = options.threads;
@@ -100,6 +102,7 @@ public:
 
     Result<Rendered> render(const Scene& scene, const Camera& camera, const Progress& progress) override {
         if (auto updated = tracer_.update(scene); !updated) return tl::unexpected(updated.error());
+        options_.integrator = integrator_.value_or(scene.render_settings().integrator);
         PathStatistics numbers;
         auto picture = tracer_.render(scene, camera, options_, &numbers, progress);
         if (!picture) return tl::unexpected(picture.error());
@@ -125,6 +128,7 @@ public:
 private:
     PathTracer tracer_;
     std::optional<Picture> resume_;
+    std::optional<Integrator> integrator_;
     PathOptions options_;
 };
 
@@ -200,6 +204,7 @@ void check_together(const RenderOptions& options) {
                                : options.target_error   ? "--target-error"
                                : options.resume         ? "--resume"
                                : options.max_depth != 0 ? "--max-depth"
+                               : options.integrator     ? "--integrator"
                                                         : nullptr;
         if (of_paths) throw CLI::ValidationError(of_paths, "expected with --engine path");
     }
@@ -309,6 +314,9 @@ void declare_engine_options(CLI::App& command, RenderOptions& options) {
         .add_option("--max-depth", options.max_depth,
                     "Path engine: scattering events, 1 = direct light; default unlimited")
         ->check(check_not_negative);
+    command.add_option_function<std::string>(
+        "--integrator", [&](Text text) { options.integrator = read_integrator(text); },
+        "Path engine: path or bidirectional (caustics, light from behind corners); default render.integrator of the scene");
     command.add_option("--threads", options.threads, "Path engine: threads; default all cores")
         ->check(check_positive);
     command.add_option("--device", options.device.device,
