@@ -16,7 +16,7 @@ constexpr int batch_count = 32;
 constexpr double student_95 = 2.0395134;  // two-sided 95 % quantile of Student's t, 31 degrees of freedom
 constexpr int most_samples = 1 << 24;     // a sensor, where a target error is asked for
 
-// The pilot that finds out where a sensor's light comes from: half as many paths as are then measured with.
+// The pilot that finds out where a sensor's light comes from: half as many paths as are then measured with at least.
 constexpr int most_guide_cells = 64;  // a side
 constexpr int pilot_paths_a_cell_side = 2;
 constexpr std::uint32_t pilot_stream = 0x80000000u;
@@ -51,8 +51,7 @@ public:
                 const PathOptions& options)
         : kernel_(kernel), embree_(embree), point_(point), number_(number), frame_(frame_from_normal(point.direction)) {
         if (point.sensor->type != SensorType::illuminance || !scatters()) return;
-        const int measured = options.target_error ? most_guide_cells * most_guide_cells * 8 : options.samples_per_pixel;
-        const double cells = 0.5 * measured / (pilot_paths_a_cell_side * pilot_paths_a_cell_side);
+        const double cells = 0.5 * options.samples_per_pixel / (pilot_paths_a_cell_side * pilot_paths_a_cell_side);
         learn(std::min(most_guide_cells, static_cast<int>(std::sqrt(cells))));
     }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "app/cli/bench_cie171.h"
 #include "app/cli/bench_cost.h"
 #include "app/cli/bench_natus.h"
 #include "app/cli/commands.h"
@@ -13,6 +14,8 @@ namespace {
 struct BenchOptions {
     std::string name;
     NatusOptions natus;
+    CieOptions cie;
+    std::string tests;        ///< as given: each benchmark has its own
     std::vector<int> voxels;  ///< empty: each benchmark's own
     std::vector<std::string> series{std::begin(cost_series), std::end(cost_series)};
     bool json = false;
@@ -42,6 +45,16 @@ std::vector<int> read_tests(const std::string& text) {
     return tests;
 }
 
+std::vector<std::string> read_cie_tests(const std::string& text) {
+    const std::vector<std::string> known = cie_tests();
+    std::vector<std::string> tests = CLI::detail::split(text, ',');
+    for (const std::string& test : tests)
+        if (std::find(known.begin(), known.end(), test) == known.end())
+            throw CLI::ValidationError("--tests", "expected numbers from 5.2 to 5.14, found \"" + test + "\"");
+    refuse_repeats("--tests", tests, text);
+    return tests;
+}
+
 std::vector<std::string> read_series(const std::string& text) {
     std::vector<std::string> names = CLI::detail::split(text, ',');
     for (const std::string& name : names)
@@ -57,6 +70,7 @@ Result<void> bench_natus(const BenchOptions& options) {
         throw CLI::ValidationError("--set", "expected with --scene: the built-in scene is no file");
     NatusOptions natus = options.natus;
     if (!options.voxels.empty()) natus.voxels = options.voxels;
+    if (!options.tests.empty()) natus.tests = read_tests(options.tests);
     const auto report = run_natus(natus);
     if (!report) return tl::unexpected(report.error());
     return print(options.json ? as_json(*report, natus) : as_text(*report, natus));
@@ -75,6 +89,14 @@ Result<void> bench_cost(const BenchOptions& options) {
     return print(options.json ? as_json(*report, timing) : as_text(*report, timing));
 }
 
+Result<void> bench_cie171(const BenchOptions& options) {
+    CieOptions cie = options.cie;
+    if (!options.tests.empty()) cie.tests = read_cie_tests(options.tests);
+    const auto report = run_cie171(cie);
+    if (!report) return tl::unexpected(report.error());
+    return print(options.json ? as_json(*report) : as_text(*report));
+}
+
 }  // namespace
 
 Action declare_bench(CLI::App& command) {
@@ -83,10 +105,12 @@ Action declare_bench(CLI::App& command) {
     NatusOptions& natus = options->natus;
     command
         .add_option("NAME", options->name,
-                    "natus: five pictures of voxel cone tracing; cost: a frame's time as its work grows")
+                    "natus: five pictures of voxel cone tracing; cost: a frame's time as its work grows; cie171: the path "
+                    "tracer by the test cases of CIE 171:2006")
         ->required()
         ->check([](const std::string& name) {
-            return name == "natus" || name == "cost" ? "" : "expected natus or cost, found \"" + name + "\"";
+            const bool known = name == "natus" || name == "cost" || name == "cie171";
+            return known ? "" : "expected natus, cost or cie171, found \"" + name + "\"";
         });
     command.add_option("--scene", natus.scene.path,
                        "natus: scene file instead of the built-in scene; test 5's is NAME-emissive beside it");
@@ -96,9 +120,14 @@ Action declare_bench(CLI::App& command) {
     command.add_option_function<std::string>(
         "--voxels", [options = options.get()](Text text) { options->voxels = read_grids(text); },
         "natus: grids to measure, voxels an edge; default 256,128,64; cost: one grid; default 128");
-    command.add_option_function<std::string>(
-        "--tests", [&natus](Text text) { natus.tests = read_tests(text); },
-        "natus: which of the tests; default 1,2,3,4,5. The path tracer is compared with test 4");
+    command.add_option("--tests", options->tests,
+                       "natus: which of the tests, default 1,2,3,4,5 (the path tracer is compared with test 4); cie171: "
+                       "which of 5.2 to 5.14, default all");
+    command
+        .add_option("--target-error", options->cie.target_error,
+                    "cie171: 95 % half-width over value at which a point is done; default 0.002")
+        ->check(check_positive);
+    command.add_option("--seed", options->cie.seed, "cie171: seed of the samples")->check(check_not_negative);
     command.add_option("--frames", natus.timing.frames, "Frames to time of each, after warm-up; default 50")
         ->check(check_positive);
     command
@@ -110,7 +139,10 @@ Action declare_bench(CLI::App& command) {
         "cost: what grows; default voxels,pixels,triangles,lights");
     command.add_option("--device", natus.timing.device.device, "Vulkan device, by number or part of its name");
     command.add_flag("--json", options->json, "Print JSON");
-    return [options] { return options->name == "cost" ? bench_cost(*options) : bench_natus(*options); };
+    return [options] {
+        if (options->name == "cie171") return bench_cie171(*options);
+        return options->name == "cost" ? bench_cost(*options) : bench_natus(*options);
+    };
 }
 
 }  // namespace heliodon::cli
