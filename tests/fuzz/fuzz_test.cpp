@@ -67,7 +67,7 @@ protected:
             file.bytes = parts.glb();
         } else if (harm == Harm::values && (ending == ".gltf" || ending == ".json")) {
             file.bytes = damage.values(Json::parse(file.bytes)).dump();
-        } else if (harm == Harm::values && (ending == ".obj" || ending == ".mtl")) {
+        } else if (harm == Harm::values && (ending == ".obj" || ending == ".mtl" || ending == ".ies" || ending == ".ldt")) {
             file.bytes = damage.words(std::move(file.bytes));
         } else {
             file.bytes = damage.bytes(std::move(file.bytes));

@@ -190,6 +190,94 @@ constexpr const char* scene_text = R"({
   "sensors": [{ "name": "desk", "type": "illuminance", "position": [0, 0.8, 0], "normal": [0, 1, 0] }]
 })";
 
+constexpr const char* ies_text = R"(IESNA:LM-63-2002
+[TEST] none
+[LUMINAIRE] Downlight
+TILT=INCLUDE
+1
+3
+0 45 90
+1 .95 .9
+1 1000 1.5 4 3 1 2 -.2 -.3 .1
+1 1 10
+0 30 60 90
+0 45 90
+100 80 40 0
+100 90 50 0
+100 95 60 1
+)";
+
+constexpr const char* ldt_text = R"(Maker
+2
+3
+4
+90
+3
+45
+report
+name
+number
+file
+date
+1200
+200
+80
+1100
+150
+0
+0
+0
+0
+100
+60,5
+1.0
+0
+1
+2
+LED
+4000
+4000K
+1A
+40
+0.2
+0.3
+0.4
+0.5
+0.6
+0.7
+0.7
+0.8
+0.8
+0.9
+0
+90
+180
+270
+0
+45
+90
+300
+200
+10
+300
+150
+20
+300
+100
+30
+)";
+
+constexpr const char* lit_scene_text = R"({
+  "heliodon": 1,
+  "cameras": [{ "name": "main", "position": [0, 1, 3], "target": [0, 1, 0], "ev100": 8 }],
+  "nodes": [
+    { "name": "floor", "shape": { "type": "quad", "origin": [-2, 0, -2], "u": [0, 0, 4], "v": [4, 0, 0] } },
+    { "name": "drum", "light": { "type": "ies", "file": "lamp.ies", "scale": 0.5 }, "translate": [1, 1.5, 0], "rotate_deg": [20, 0, 0] },
+    { "name": "panel", "light": { "type": "ies", "file": "lamp.ldt", "flux_lm": 900, "color": [1, 0.9, 0.8] }, "translate": [-1, 1.5, 0] }
+  ],
+  "sensors": [{ "name": "desk", "type": "illuminance", "position": [0, 0.8, 0], "normal": [0, 1, 0] }]
+})";
+
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
     return text.replace(text.find(from), from.size(), to);
 }
@@ -226,7 +314,11 @@ std::vector<Sample> samples() {
             beside(rich),
             {"obj", "walls.obj", walls},
             {"scene", "scene.heliodon.json", scene},
-            {"scene of other pictures", "scene.heliodon.json", other_pictures}};
+            {"scene of other pictures", "scene.heliodon.json", other_pictures},
+            {"luminaire", "lamp.ies", {{"lamp.ies", ies_text}}},
+            {"scene of luminaires",
+             "lit.heliodon.json",
+             {{"lamp.ldt", ldt_text}, {"lamp.ies", ies_text}, {"lit.heliodon.json", lit_scene_text}}}};
 }
 
 }  // namespace heliodon::tests

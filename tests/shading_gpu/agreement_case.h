@@ -2,7 +2,7 @@
 #ifndef HELIODON_TESTS_AGREEMENT_CASE_H
 #define HELIODON_TESTS_AGREEMENT_CASE_H
 #include "shading/lobe_cone.h"
-#include "shading/light.h"
+#include "shading/luminaire_shape.h"
 #include "shading/material_eval.h"
 #include "shading/octahedral.h"
 #include "shading/random.h"
@@ -10,7 +10,7 @@
 #include "shading/tone.h"
 SHADING_BEGIN
 
-SHADING_CONST uint agreement_values = 19u;  // vec4 a case
+SHADING_CONST uint agreement_values = 23u;  // vec4 a case
 
 SHADING_FN Surface agreement_surface(uint i) {
     vec4 a = random4(i, 0u, 0u, 1u);
@@ -48,6 +48,37 @@ SHADING_FN LightData agreement_light(uint i) {
     light.shadow = 0u;
     light.cone_radius = 0.0f;
     light.flux_factor = 0.0f;
+    return light;
+}
+
+/// A table of 4 polar angles and 3 azimuths.
+SHADING_FN float luminaire_value(uint i) {
+    if (i < 2u) {
+        return i == 0u ? 4.0f : 3.0f;
+    }
+    if (i < 6u) {
+        return float(i - 2u) * (pi / 3.0f);
+    }
+    if (i < 9u) {
+        return float(i - 6u) * pi;
+    }
+    return 0.1f * float(i % 7u);
+}
+#include "shading/luminaire.h"
+
+SHADING_FN LightData agreement_luminaire(uint i) {
+    LightData light = agreement_light(i);
+    vec4 a = random4(i, 0u, 5u, 1u);
+    light.type = light_type_luminaire;
+    light.tangent = frame_from_normal(light.axis).tangent;
+    light.table = 0u;
+    light.half_extent = vec3(a) * 0.5f + vec3(0.1f);
+    light.opening = i % 5u;
+    if (i % 3u == 0u && light.opening == opening_box) {
+        light.half_extent.z = 0.0f;
+    }
+    light.weighted_normal = vec3(0.0f);
+    light.radius = i % 7u == 0u ? 0.0f : length(light.half_extent);
     return light;
 }
 
@@ -129,6 +160,22 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
     if (k == 18u) {
         LightData light = agreement_light(i);
         return vec4(light_cone_tan(light, vec3(0.3f, -0.2f, 0.1f)));
+    }
+    if (k == 19u || k == 20u) {
+        LightSample sampled = any_light_sample(agreement_luminaire(i), vec3(0.3f, -0.2f, 0.1f), vec2(v));
+        return k == 19u ? vec4(sampled.direction, sampled.distance) : vec4(sampled.value, 1.0f / (1.0f + sampled.pdf));
+    }
+    if (k == 21u) {
+        // Towards the middle: at an edge a ray may meet it or not.
+        LightData light = agreement_luminaire(i);
+        vec3 from = vec3(0.3f, -0.2f, 0.1f);
+        vec3 towards = normalize(light.position - from);
+        return vec4(any_light_radiance(light, towards) * 0.01f, any_light_intersect(light, from, towards));
+    }
+    if (k == 22u) {
+        LightData light = agreement_luminaire(i);
+        OpeningPoint point = opening_surface_point(light.opening, light.half_extent, vec2(v));
+        return vec4(point.position + point.weighted_normal, opening_projected_area(light.opening, light.half_extent, wi));
     }
     return v;
 }
