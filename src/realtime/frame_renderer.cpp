@@ -22,31 +22,14 @@
 namespace heliodon::realtime {
 namespace {
 
-// Shadow maps resident at once: 16 layers of 2048².
-constexpr std::uint64_t shadow_budget_bytes = 512ull << 20;
-constexpr std::uint64_t shadow_texel_bytes = 8;  // depth and slope
-constexpr std::uint32_t smallest_shadow_layers = 6;  // one cube
-// What shadow views may draw: a command an instance, view and draw list.
-constexpr std::uint64_t shadow_draw_budget_bytes = 256ull << 20;
-constexpr std::uint32_t most_shadow_views = 65535;  // culling counts them in one dimension of a dispatch
+// A map whose size no one stated is as large as the picture can tell, up to this.
+constexpr int largest_fitted_shadow_map = 2048;
 constexpr std::size_t frames_in_flight = 2;
 constexpr std::uint32_t fragments_per_pixel = 4;  // room for blended surfaces to begin with
 
-std::uint32_t instance_capacity(std::uint32_t instances) { return std::bit_ceil(std::max(instances, 16u)); }
-
-ShadowBudget shadow_budget(const gpu::Device& device, int size, std::uint32_t instances) {
-    const std::uint64_t layer_bytes = std::uint64_t(size) * size * shadow_texel_bytes;
-    const std::uint64_t view_bytes = shading::draw_lists_per_view * sizeof(shading::DrawCommand) * instance_capacity(instances);
-    ShadowBudget budget;
-    budget.layer_size = static_cast<std::uint32_t>(size);
-    budget.layers = std::clamp(static_cast<std::uint32_t>(shadow_budget_bytes / layer_bytes), smallest_shadow_layers,
-                               device.limits().maxImageArrayLayers);
-    budget.views = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(shadow_draw_budget_bytes / view_bytes,
-                                                                        smallest_shadow_layers, most_shadow_views));
-    return budget;
-}
-
 }  // namespace
+
+std::uint32_t instance_capacity(std::uint32_t instances) { return std::bit_ceil(std::max(instances, 16u)); }
 
 FrameRenderer::FrameRenderer(gpu::Device& device, const std::string& shader_directory)
     : device_(device),
@@ -101,7 +84,9 @@ Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
     if (cone_shadows != cone_shadows_) planned_lights_ = ~0ull;
     cone_shadows_ = cone_shadows;
     settings_ = scene.render_settings();
-    const int size = std::clamp(scene.render_settings().shadow_map_size, 1, static_cast<int>(device_.limits().maxImageDimension2D));
+    const int stated = settings_.shadow_map_size;
+    shadow_maps_fit_picture_ = stated == 0;
+    const int size = std::clamp(stated == 0 ? largest_fitted_shadow_map : stated, 1, static_cast<int>(device_.limits().maxImageDimension2D));
     if (size != shadow_map_size_) planned_lights_ = ~0ull;
     shadow_map_size_ = size;
     if (planned_lights_ != gpu_scene_.light_revision() || planned_instances_ != instance_capacity(gpu_scene_.instance_count()))
@@ -109,48 +94,6 @@ Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
     if (prefiltered_sky_ != gpu_scene_.sky_revision())
         if (auto done = prefilter_sky(); !done) return tl::unexpected(done.error());
     return update;
-}
-
-Result<void> FrameRenderer::plan_lights() {
-    const auto flat_lights = gpu_scene_.flat().lights();
-    lights_.assign(flat_lights.begin(), flat_lights.end());
-    has_cone_shadows_ = false;
-    for (shading::LightData& light : lights_)
-        if (cone_shadows_ && light.type != shading::light_type_none && light.radius > 0) {
-            const float radius = light.radius;
-            light = center_of_area_light(light);
-            light.cone_radius = radius;
-            has_cone_shadows_ = true;
-        }
-    ShadowPlan plan = plan_shadows(lights_, gpu_scene_.bounds(),
-                                   shadow_budget(device_, shadow_map_size_, gpu_scene_.instance_count()));
-    // Maps that are rendered in turns stay where they are while the lights are the same ones.
-    if (!refreshes_in_turns() || planned_size_ != shadow_map_size_ || !same_views(plan, plan_)) {
-        plan_ = std::move(plan);
-        resident_shadows_ = {};
-    }
-    planned_size_ = shadow_map_size_;
-    planned_lights_ = gpu_scene_.light_revision();
-    planned_instances_ = instance_capacity(gpu_scene_.instance_count());
-    has_area_lights_ = std::any_of(plan_.active_lights.begin(), plan_.active_lights.end(),
-                                   [&](std::uint32_t light) { return lights_[light].radius > 0; });
-    if (auto done = upload_visible_lights(); !done) return done;
-    if (auto done = gpu_scene_.set_light_shadows(plan_.shadow_of_light, plan_.active_lights); !done) return done;
-    for (const std::uint32_t light : plan_.active_lights)
-        if (auto done = gpu_scene_.stand_in_for_light(light, lights_[light]); !done) return done;
-    return {};
-}
-
-Result<void> FrameRenderer::upload_visible_lights() {
-    std::vector<shading::LightData> visible;
-    for (const std::uint32_t index : plan_.active_lights)
-        if (const shading::LightData& light = gpu_scene_.flat().lights()[index]; light.radius > 0) visible.push_back(light);
-    const std::array<std::uint32_t, 4> header{static_cast<std::uint32_t>(visible.size())};
-    const std::uint64_t bytes = sizeof(header) + visible.size() * sizeof(shading::LightData);
-    if (auto done = visible_lights_.reserve(device_, bytes, 0); !done) return done;
-    if (auto done = device_.upload(visible_lights_.buffer(), std::span<const std::uint32_t>(header)); !done) return done;
-    if (visible.empty()) return {};
-    return device_.upload(visible_lights_.buffer(), std::span<const shading::LightData>(visible), sizeof(header));
 }
 
 Result<void> FrameRenderer::resize(int width, int height, bool display) {
@@ -164,6 +107,7 @@ Result<void> FrameRenderer::resize(int width, int height, bool display) {
 }
 
 Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sample) {
+    fit_shadow_maps(camera, sample);
     std::uint32_t layers = 1, views = 1;
     for (const ShadowBatch& batch : plan_.batches) {
         layers = std::max(layers, batch.layer_count);

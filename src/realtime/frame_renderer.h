@@ -32,6 +32,7 @@ struct FrameSample {
     bool jitter_shadows = false;     ///< move the shadow maps' texel grid by `shadow_index`, and look up single texels
     bool force_shadows = false;      ///< render them although nothing changed (for timing)
     bool environment = true;
+    bool measures = false;           ///< light at points, not a picture: shadow maps as fine as they get
     bool cone_traced = false;        ///< indirect light and the sky by cones through the voxel volume
     std::uint32_t aov = shading::frame_aov_none;
     std::uint32_t seed = 0;
@@ -39,6 +40,9 @@ struct FrameSample {
     float display_scale = 1.0f;      ///< live: exposure / samples in the sum
     float texture_gradient_scale = 1.0f;
 };
+
+/// Instances that there is room for where there are so many.
+[[nodiscard]] std::uint32_t instance_capacity(std::uint32_t instances);
 
 struct PassTimes {
     std::vector<PassTime> passes;
@@ -118,7 +122,7 @@ private:
 
     /// What the voxel volume shows.
     struct VolumeKey {
-        std::uint64_t scene = ~0ull, placement = ~0ull;
+        std::uint64_t scene = ~0ull, placement = ~0ull, shadow_places = 0;
         int bounces = 0;
         bool sky = true;
         float radiance_unit = 1;
@@ -129,6 +133,10 @@ private:
     FrameRenderer(gpu::Device& device, const std::string& shader_directory);
     [[nodiscard]] Result<void> open();
     [[nodiscard]] Result<void> plan_lights();
+    [[nodiscard]] ShadowPlan plan_shadow_maps() const;
+    void use_shadow_plan(ShadowPlan plan);
+    /// Without a size in the scene's settings shadow maps are as fine as the picture can tell.
+    void fit_shadow_maps(const Camera& camera, const FrameSample& sample);
     [[nodiscard]] Result<void> upload_visible_lights();
     [[nodiscard]] Result<void> record_sensor_batch(const gpu::Buffer& sensors, std::uint32_t count, const FrameSample& sample,
                                                    std::size_t batch, const passes::SensorLights& lights);
@@ -188,6 +196,9 @@ private:
     int bounce_frames_ = 0, gather_axis_ = 0;  // since the volume last changed; of the last frame
 
     ShadowPlan plan_;
+    std::optional<ShadowDetail> shadow_detail_;  // that it is made for
+    std::uint64_t shadow_places_ = 0;            // goes up when maps lie elsewhere or change in size
+    bool shadow_maps_fit_picture_ = false;
     bool cone_shadows_ = false;  // lights with an extent are to cast their shadows by cones
     bool has_cone_shadows_ = false;
     std::vector<shading::LightData> lights_;         // the scene's; those with shadows by cones at their centre

@@ -1,5 +1,7 @@
 // Shadow maps and what else the frame renderer prepares for lights.
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "passes/light_grid/light_grid.h"
 #include "realtime/area_light.h"
@@ -12,7 +14,91 @@ namespace {
 // Shadow maps that a frame renders: those of 64 point lights. The maps of more lights take turns.
 constexpr std::uint32_t views_a_turn = 384;
 
+// Shadow maps resident at once: 16 layers of 2048².
+constexpr std::uint64_t shadow_budget_bytes = 512ull << 20;
+constexpr std::uint64_t shadow_texel_bytes = 8;  // depth and slope
+constexpr std::uint32_t smallest_shadow_layers = 6;  // one cube
+// What shadow views may draw: a command an instance, view and draw list.
+constexpr std::uint64_t shadow_draw_budget_bytes = 256ull << 20;
+constexpr std::uint32_t most_shadow_views = 65535;  // culling counts them in one dimension of a dispatch
+
+ShadowBudget shadow_budget(const gpu::Device& device, int size, std::uint32_t instances) {
+    const std::uint64_t layer_bytes = std::uint64_t(size) * size * shadow_texel_bytes;
+    const std::uint64_t view_bytes = shading::draw_lists_per_view * sizeof(shading::DrawCommand) * instance_capacity(instances);
+    ShadowBudget budget;
+    budget.layer_size = static_cast<std::uint32_t>(size);
+    budget.layers = std::clamp(static_cast<std::uint32_t>(shadow_budget_bytes / layer_bytes), smallest_shadow_layers,
+                               device.limits().maxImageArrayLayers);
+    budget.views = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(shadow_draw_budget_bytes / view_bytes,
+                                                                        smallest_shadow_layers, most_shadow_views));
+    return budget;
+}
+
 }  // namespace
+
+Result<void> FrameRenderer::plan_lights() {
+    const auto flat_lights = gpu_scene_.flat().lights();
+    lights_.assign(flat_lights.begin(), flat_lights.end());
+    has_cone_shadows_ = false;
+    for (shading::LightData& light : lights_)
+        if (cone_shadows_ && light.type != shading::light_type_none && light.radius > 0) {
+            const float radius = light.radius;
+            light = center_of_area_light(light);
+            light.cone_radius = radius;
+            has_cone_shadows_ = true;
+        }
+    ShadowPlan plan = plan_shadow_maps();
+    // Maps that are rendered in turns stay where they are while the lights are the same ones.
+    if (!refreshes_in_turns() || planned_size_ != shadow_map_size_ || !same_views(plan, plan_)) use_shadow_plan(std::move(plan));
+    planned_size_ = shadow_map_size_;
+    planned_lights_ = gpu_scene_.light_revision();
+    planned_instances_ = instance_capacity(gpu_scene_.instance_count());
+    has_area_lights_ = std::any_of(plan_.active_lights.begin(), plan_.active_lights.end(),
+                                   [&](std::uint32_t light) { return lights_[light].radius > 0; });
+    if (auto done = upload_visible_lights(); !done) return done;
+    if (auto done = gpu_scene_.set_light_shadows(plan_.shadow_of_light, plan_.active_lights); !done) return done;
+    for (const std::uint32_t light : plan_.active_lights)
+        if (auto done = gpu_scene_.stand_in_for_light(light, lights_[light]); !done) return done;
+    return {};
+}
+
+Result<void> FrameRenderer::upload_visible_lights() {
+    std::vector<shading::LightData> visible;
+    for (const std::uint32_t index : plan_.active_lights)
+        if (const shading::LightData& light = gpu_scene_.flat().lights()[index]; light.radius > 0) visible.push_back(light);
+    const std::array<std::uint32_t, 4> header{static_cast<std::uint32_t>(visible.size())};
+    const std::uint64_t bytes = sizeof(header) + visible.size() * sizeof(shading::LightData);
+    if (auto done = visible_lights_.reserve(device_, bytes, 0); !done) return done;
+    if (auto done = device_.upload(visible_lights_.buffer(), std::span<const std::uint32_t>(header)); !done) return done;
+    if (visible.empty()) return {};
+    return device_.upload(visible_lights_.buffer(), std::span<const shading::LightData>(visible), sizeof(header));
+}
+
+ShadowPlan FrameRenderer::plan_shadow_maps() const {
+    return plan_shadows(lights_, gpu_scene_.bounds(), shadow_budget(device_, shadow_map_size_, gpu_scene_.instance_count()),
+                        shadow_detail_ ? &*shadow_detail_ : nullptr);
+}
+
+void FrameRenderer::use_shadow_plan(ShadowPlan plan) {
+    if (!same_places(plan, plan_)) ++shadow_places_;
+    plan_ = std::move(plan);
+    resident_shadows_ = {};
+}
+
+void FrameRenderer::fit_shadow_maps(const Camera& camera, const FrameSample& sample) {
+    std::optional<ShadowDetail> detail;
+    // Maps that take turns are small, and stay where they are.
+    if (shadow_maps_fit_picture_ && !sample.measures && plan_.batches.size() == 1 && !refreshes_in_turns()) {
+        const Bounds& bounds = gpu_scene_.bounds();
+        detail = shadow_detail(camera_frame(camera, bounds, wanted_.width, wanted_.height, glm::vec2(0)), bounds);
+        const glm::vec3 extent = bounds.extent();
+        const float longest = std::max({extent.x, extent.y, extent.z});
+        if (sample.cone_traced) detail->voxel_m = std::ldexp(longest / static_cast<float>(settings_.voxels), 1 - settings_.cascades);
+    }
+    if (detail == shadow_detail_) return;
+    shadow_detail_ = detail;
+    if (ShadowPlan plan = plan_shadow_maps(); !same_places(plan, plan_)) use_shadow_plan(std::move(plan));
+}
 
 bool FrameRenderer::refreshes_in_turns() const {
     return plan_.batches.size() == 1 && plan_.batches.front().view_count > views_a_turn;

@@ -76,6 +76,7 @@ Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Rec
     FrameSample still;
     still.environment = environment;
     still.cone_traced = cone_traced;
+    still.measures = true;
     const Camera camera;  // its exposure and place only scale and centre the volume
     if (auto done = cone_traced ? update_surfaces(camera, still) : prepare(camera, still); !done) return tl::unexpected(done.error());
     if (cone_traced && relight_)

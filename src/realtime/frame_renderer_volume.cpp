@@ -62,6 +62,7 @@ Result<void> FrameRenderer::update_volume(const Camera& camera, const FrameSampl
     VolumeKey wanted;
     wanted.scene = gpu_scene_.revision();
     wanted.placement = voxels_.placement_revision();
+    wanted.shadow_places = shadow_places_;
     wanted.bounces = settings_.bounces;
     wanted.sky = sample.environment;
     // What else the light of voxels depends on: whether the sky is occluded, and how shadows are found.

@@ -105,6 +105,27 @@ ShadowViewData orthographic_view(const Axes& axes, const Bounds& scene, float gu
     return view;
 }
 
+/// Of perspective_view().
+ShadowFrustum perspective_frustum(const Axes& axes, glm::vec3 origin, float tangent) {
+    const auto through = [&](glm::dvec3 inward) { return glm::dvec4(inward, -glm::dot(inward, glm::dvec3(origin))); };
+    const glm::dvec3 forward = double(tangent) * glm::dvec3(axes.forward);
+    ShadowFrustum frustum;
+    for (const glm::dvec3& axis : {glm::dvec3(axes.right), glm::dvec3(axes.up)})
+        for (const double sign : {1.0, -1.0}) frustum.planes.push_back(through(forward + sign * axis));
+    frustum.half_width = through(forward);
+    return frustum;
+}
+
+ShadowFrustum frustum_of(const ShadowPlan::View& view, const LightData& light, const Bounds& scene) {
+    if (light.type != shading::light_type_directional)
+        return view.cube ? perspective_frustum(face_axes(view.face), light.position, 1)
+                         : perspective_frustum(axes_along(light.axis), light.position, spot_tan(light));
+    const ShadowViewData whole = orthographic_view(axes_along(light.axis), scene, 1, glm::vec2(0));  // holds the scene
+    ShadowFrustum frustum;
+    frustum.half_width.w = std::max(glm::length(whole.axis_u), glm::length(whole.axis_v));
+    return frustum;
+}
+
 /// Lux that the light gives a plane facing it at a typical distance of the scene's surfaces.
 float typical_illuminance(const LightData& light, const Bounds& scene) {
     const float luminance = heliodon::units::luminance(light.intensity);
@@ -117,23 +138,36 @@ float typical_illuminance(const LightData& light, const Bounds& scene) {
 // Smaller maps would be mostly guard texels.
 constexpr std::uint32_t smallest_map = 16;
 
-/// How often the maps of a batch are halved.
+/// How often the maps of a batch are halved: by what the picture can show, and by what fits.
 class MapSizes {
 public:
     explicit MapSizes(const ShadowBudget& budget)
-        : most_halvings_(budget.layer_size > smallest_map ? std::bit_width(budget.layer_size / smallest_map) - 1 : 0),
+        : layer_size_(budget.layer_size),
+          most_halvings_(budget.layer_size > smallest_map ? std::bit_width(budget.layer_size / smallest_map) - 1 : 0),
           capacity_(budget.layers * cells(0)) {}
 
     [[nodiscard]] std::uint32_t most_halvings() const { return most_halvings_; }
     /// Squares of the smallest map in one halved so often.
     [[nodiscard]] std::uint64_t cells(std::uint32_t halvings) const { return 1ull << 2 * (most_halvings_ - halvings); }
     [[nodiscard]] std::uint64_t capacity() const { return capacity_; }
+    /// How often a map may be halved that is to keep so many texels an edge.
+    [[nodiscard]] std::uint32_t halvings_for(double texels) const {
+        std::uint32_t halvings = 0;
+        while (halvings < most_halvings_ && (layer_size_ >> (halvings + 1)) >= texels + 2 * guard_texels) ++halvings;
+        return halvings;
+    }
 
     struct Light {
         float illuminance = 0;
-        std::uint32_t views = 0;
-        std::uint32_t halvings = 0;
+        std::vector<std::uint32_t> least{};  ///< halvings of each view
+        std::uint32_t halvings = 0;          ///< of each that has not more already
     };
+    /// Squares of the smallest map in all of a light's that are halved so often.
+    [[nodiscard]] std::uint64_t cells(const Light& light, std::uint32_t halvings) const {
+        std::uint64_t sum = 0;
+        for (const std::uint32_t least : light.least) sum += cells(std::max(least, halvings));
+        return sum;
+    }
     /// A shadow's edge is wrong by a texel, ∝ 1/size, where a light's illuminance E is missing or too much. Σ E/size is
     /// least at a given Σ size² where size ∝ E^⅓.
     void choose(std::vector<Light>& lights) const {
@@ -146,7 +180,7 @@ public:
                 const float halvings = 0.25f * static_cast<float>(quarter_octaves) - std::log2(light.illuminance / brightest) / 3;
                 light.halvings = static_cast<std::uint32_t>(
                     quarter_octaves == 0 ? 0.0f : std::clamp(std::ceil(halvings), 0.0f, static_cast<float>(most_halvings_)));
-                used += light.views * cells(light.halvings);
+                used += cells(light, light.halvings);
             }
             const bool smallest = std::all_of(lights.begin(), lights.end(), [&](const Light& l) { return l.halvings == most_halvings_; });
             if (used <= capacity_ || smallest) break;
@@ -157,7 +191,7 @@ public:
         std::stable_sort(order.begin(), order.end(), [](const Light* a, const Light* b) { return a->illuminance > b->illuminance; });
         for (Light* light : order) {
             if (light->halvings == 0) continue;
-            const std::uint64_t more = light->views * (cells(light->halvings - 1) - cells(light->halvings));
+            const std::uint64_t more = cells(*light, light->halvings - 1) - cells(*light, light->halvings);
             if (used + more > capacity_) break;
             used += more;
             --light->halvings;
@@ -165,7 +199,7 @@ public:
     }
 
 private:
-    std::uint32_t most_halvings_;
+    std::uint32_t layer_size_, most_halvings_;
     std::uint64_t capacity_;
 };
 
@@ -178,16 +212,21 @@ std::uint32_t even_bits(std::uint64_t code) {
 
 /// Sizes and places of the maps of one batch.
 void place_maps(ShadowPlan& plan, ShadowBatch& batch, std::span<const LightData> lights, const Bounds& scene,
-                const ShadowBudget& budget) {
+                const ShadowBudget& budget, const ShadowDetail* detail) {
     const MapSizes sizes(budget);
     std::vector<MapSizes::Light> chosen;
     std::vector<std::uint32_t> halvings, order;
+    std::uint32_t view = batch.first_view;
     for (std::uint32_t i = 0; i < batch.light_count; ++i) {
         const LightData& light = lights[plan.active_lights[batch.first_light + i]];
-        chosen.push_back({typical_illuminance(light, scene), view_count(light), 0});
+        chosen.push_back({typical_illuminance(light, scene)});
+        for (std::uint32_t n = view_count(light); n > 0; --n, ++view)
+            chosen.back().least.push_back(
+                detail ? sizes.halvings_for(texels_wanted(frustum_of(plan.views[view], light, scene), *detail)) : 0);
     }
     sizes.choose(chosen);
-    for (const MapSizes::Light& light : chosen) halvings.insert(halvings.end(), light.views, light.halvings);
+    for (const MapSizes::Light& light : chosen)
+        for (const std::uint32_t least : light.least) halvings.push_back(std::max(least, light.halvings));
     order.resize(halvings.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return halvings[a] < halvings[b]; });
@@ -205,7 +244,7 @@ void place_maps(ShadowPlan& plan, ShadowBatch& batch, std::span<const LightData>
 
 }  // namespace
 
-ShadowPlan plan_shadows(std::span<const LightData> lights, const Bounds& scene, const ShadowBudget& budget) {
+ShadowPlan plan_shadows(std::span<const LightData> lights, const Bounds& scene, const ShadowBudget& budget, const ShadowDetail* detail) {
     ShadowPlan plan;
     plan.shadow_of_light.assign(lights.size(), shading::no_texture);
     const std::uint64_t most_views = std::min<std::uint64_t>(budget.views, MapSizes(budget).capacity());
@@ -225,7 +264,7 @@ ShadowPlan plan_shadows(std::span<const LightData> lights, const Bounds& scene, 
         batch.view_count += count;
     }
     plan.batches.push_back(batch);
-    for (ShadowBatch& planned : plan.batches) place_maps(plan, planned, lights, scene, budget);
+    for (ShadowBatch& planned : plan.batches) place_maps(plan, planned, lights, scene, budget, detail);
     return plan;
 }
 
@@ -234,6 +273,11 @@ bool same_views(const ShadowPlan& a, const ShadowPlan& b) {
            std::equal(a.views.begin(), a.views.end(), b.views.begin(), b.views.end(), [](const auto& x, const auto& y) {
                return x.light == y.light && x.face == y.face && x.cube == y.cube;
            });
+}
+
+bool same_places(const ShadowPlan& a, const ShadowPlan& b) {
+    return same_views(a, b) && std::equal(a.views.begin(), a.views.end(), b.views.begin(), b.views.end(),
+                                          [](const auto& x, const auto& y) { return x.place == y.place; });
 }
 
 std::vector<ShadowViewData> shadow_views(std::span<const ShadowPlan::View> sources, std::span<const LightData> lights,

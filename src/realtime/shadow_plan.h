@@ -6,6 +6,7 @@
 
 #include "core/math.h"
 #include "passes/common/frame_shared.h"
+#include "realtime/shadow_detail.h"
 #include "shading/scene_data.h"
 
 namespace heliodon::realtime {
@@ -13,6 +14,7 @@ namespace heliodon::realtime {
 /// A square of the shadow map array, in texels.
 struct ShadowPlace {
     std::uint32_t layer = 0, x = 0, y = 0, size = 0;
+    bool operator==(const ShadowPlace&) const = default;
 };
 
 /// Lights whose shadow maps are resident together.
@@ -29,8 +31,8 @@ struct ShadowBudget {
     std::uint32_t views = 32768;
 };
 
-/// Which lights shine, how many shadow views each needs, and where their maps lie. While all fit, each map has a layer
-/// of its own. Where they do not, maps share layers, a light's the smaller the less it lights the scene; lights beyond
+/// Which lights shine, how many shadow views each needs, and where their maps lie. While all fit, each map is as large as
+/// a layer. Where they do not, maps share layers, a light's the smaller the less it lights the scene; lights beyond
 /// the number of views are lit in later batches. Every light casts its shadow.
 struct ShadowPlan {
     struct View {
@@ -46,7 +48,11 @@ struct ShadowPlan {
 };
 /// Whether two plans have the same views in the same order, wherever their maps lie.
 [[nodiscard]] bool same_views(const ShadowPlan& a, const ShadowPlan& b);
-[[nodiscard]] ShadowPlan plan_shadows(std::span<const shading::LightData> lights, const Bounds& scene, const ShadowBudget& budget);
+/// And whether these lie at the same places.
+[[nodiscard]] bool same_places(const ShadowPlan& a, const ShadowPlan& b);
+/// `detail`, if any: maps are halved as long as their texels stay finer than who looks at them can tell.
+[[nodiscard]] ShadowPlan plan_shadows(std::span<const shading::LightData> lights, const Bounds& scene, const ShadowBudget& budget,
+                                      const ShadowDetail* detail = nullptr);
 
 /// The views as shaders want them. `jitter_texels` moves the texel grid, so that the mean over many shadow maps is
 /// free of its stairs. `scene` bounds what directional lights must cover.

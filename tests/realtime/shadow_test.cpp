@@ -40,14 +40,19 @@ struct BoxScene {
 class ShadowsAtScale : public RealtimeTest, public ::testing::WithParamInterface<float> {
 protected:
     /// Every pixel of the floor seen from above is lit as the formula says, or black in the box's shadow;
-    /// only pixels within `border` metres of the shadow's edge may be either.
-    void check(bool sun) {
+    /// only pixels within two texels of the shadow's edge may be either. `map_size` 0: maps as fine as the picture.
+    void check(bool sun, int map_size) {
         const float scale = GetParam();
         BoxScene box(scale, sun);
+        RenderSettings settings;
+        settings.shadow_map_size = map_size;
+        box.scene.set_render_settings(settings);
         constexpr int size = 128;
         const float half = 1.4f * scale;
         const Image image = render(box.scene, camera_above(50 * scale, half), size);
-        const float border = 0.004f * scale;  // two texels of a 2048² map as the floor sees them
+        // As the floor sees it, of a 2048² map, or the diagonal of one as wide as a pixel across the light's way to the box.
+        const float texel = map_size == 0 ? std::sqrt(2.0f) * 2 * half / size / glm::normalize(box.light).y : 0.002f * scale;
+        const float border = 2 * texel;
         int wrong = 0, lit = 0, dark = 0;
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
@@ -68,12 +73,14 @@ protected:
             }
         EXPECT_EQ(wrong, 0) << "of " << lit << " lit and " << dark << " dark pixels";
         EXPECT_GT(lit, size * size / 2);
-        EXPECT_GT(dark, size * size / 40);
+        EXPECT_GT(dark, size * size / (map_size == 0 ? 100 : 40));
     }
 };
 
-TEST_P(ShadowsAtScale, APointLightsShadowBeginsAtTheBoxAndNothingLitIsDarkened) { check(false); }
-TEST_P(ShadowsAtScale, ASunsShadowBeginsAtTheBoxAndNothingLitIsDarkened) { check(true); }
+TEST_P(ShadowsAtScale, APointLightsShadowBeginsAtTheBoxAndNothingLitIsDarkened) { check(false, 2048); }
+TEST_P(ShadowsAtScale, ASunsShadowBeginsAtTheBoxAndNothingLitIsDarkened) { check(true, 2048); }
+TEST_P(ShadowsAtScale, APointLightsMapsAreAsFineAsThePicture) { check(false, 0); }
+TEST_P(ShadowsAtScale, ASunsMapIsAsFineAsThePicture) { check(true, 0); }
 INSTANTIATE_TEST_SUITE_P(Metres, ShadowsAtScale, ::testing::Values(1.0f, 100.0f, 1000.0f));
 
 using Shadows = RealtimeTest;
