@@ -176,9 +176,9 @@ shading::LightData FlatScene::flat_light(const Light& light, const glm::mat4& wo
     if (light.type != LightType::luminaire) return pack_light(light, world);
     if (!light.luminaire) return no_light();
     const std::size_t before = luminaires_.values().size();
-    const std::uint32_t table = luminaires_.place(light.luminaire);
+    const LuminaireTables::Place place = luminaires_.place(light.luminaire);
     changes.luminaires = changes.luminaires || luminaires_.values().size() != before;
-    return pack_luminaire(light, world, table);
+    return pack_luminaire(light, world, place);
 }
 
 void FlatScene::clear_node(std::uint32_t slot, FlatChanges& changes) {

@@ -15,17 +15,21 @@ namespace heliodon::convert {
 /// luminaire once.
 class LuminaireTables {
 public:
-    /// Where the luminaire's table begins; it is appended where it is not there yet.
-    std::uint32_t place(const std::shared_ptr<const Luminaire>& luminaire);
+    struct Place {
+        std::uint32_t table = 0;         ///< where its table begins
+        std::uint32_t face_weights = 0;  ///< LightData::face_weights: each face of the opening by the flux that leaves it
+    };
+    /// Appends the table where it is not there yet.
+    Place place(const std::shared_ptr<const Luminaire>& luminaire);
     void clear();
     [[nodiscard]] std::span<const float> values() const { return values_; }
 
 private:
-    std::map<std::shared_ptr<const Luminaire>, std::uint32_t> places_;
+    std::map<std::shared_ptr<const Luminaire>, Place> places_;
     std::vector<float> values_;
 };
 
-/// `light` with its luminaire, whose table begins at `table`. `world` moves, turns and mirrors it.
-[[nodiscard]] shading::LightData pack_luminaire(const Light& light, const glm::mat4& world, std::uint32_t table);
+/// `light` with its luminaire, whose table lies at `place`. `world` moves, turns and mirrors it.
+[[nodiscard]] shading::LightData pack_luminaire(const Light& light, const glm::mat4& world, const LuminaireTables::Place& place);
 
 }  // namespace heliodon::convert

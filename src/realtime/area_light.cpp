@@ -11,7 +11,7 @@ namespace {
 
 shading::LightData point_of_luminaire(shading::LightData light, glm::vec2 u) {
     const shading::OpeningPoint point =
-        shading::opening_surface_point(light.opening & shading::opening_shape_bits, light.half_extent, u);
+        shading::opening_surface_point(light.opening & shading::opening_shape_bits, light.half_extent, light.face_weights, u);
     // Openings are symmetric: it is the same whichever way azimuths run.
     const glm::mat3 to_world(light.tangent, glm::cross(light.tangent, light.axis), light.axis);
     light.position += to_world * point.position;

@@ -271,9 +271,47 @@ struct OpeningPoint {
     vec3 weighted_normal;  // outward, 1/density in m² long; 0 for flat openings, of which each point shines alike
 };
 
+/// How often a face is picked, 0 to 31: bit 5 i of `weights` on. Faces 0 to 5 of a box lie towards +x, −x, +y, −y, +z and
+/// −z; of a cylinder, turned, 0 is the side, 4 and 5 are the caps.
+SHADING_FN float opening_face_weight(uint weights, uint face) {
+    return float((weights >> (5u * face)) & 31u);
+}
+
+SHADING_FN OpeningPoint opening_box_point(vec3 h, uint face, float weight, float v, float across) {
+    const float side = (face & 1u) == 0u ? 1.0f : -1.0f;
+    const float along = 2.0f * v - 1.0f;
+    OpeningPoint point;
+    if (face < 2u) {
+        point.position = vec3(side * h.x, h.y * along, h.z * across);
+        point.weighted_normal = vec3(side * 4.0f * h.y * h.z / weight, 0.0f, 0.0f);
+    } else if (face < 4u) {
+        point.position = vec3(h.x * along, side * h.y, h.z * across);
+        point.weighted_normal = vec3(0.0f, side * 4.0f * h.x * h.z / weight, 0.0f);
+    } else {
+        point.position = vec3(h.x * along, h.y * across, side * h.z);
+        point.weighted_normal = vec3(0.0f, 0.0f, side * 4.0f * h.x * h.y / weight);
+    }
+    return point;
+}
+SHADING_FN OpeningPoint opening_cylinder_point(vec3 h, uint face, float weight, float v, vec2 u) {
+    OpeningPoint point;
+    if (face < 4u) {
+        const float angle = 2.0f * pi * v;
+        point.position = vec3(h.x * cos(angle), h.y * sin(angle), h.z * (2.0f * u.y - 1.0f));
+        // The arc's length a radian times its normal is (h.y cos, h.x sin).
+        point.weighted_normal = vec3(h.y * cos(angle), h.x * sin(angle), 0.0f) * (4.0f * pi * h.z / weight);
+    } else {
+        const float side = face == 4u ? 1.0f : -1.0f;
+        const vec2 disk = sample_disk(vec2(v, u.y));
+        point.position = vec3(h.x * disk.x, h.y * disk.y, side * h.z);
+        point.weighted_normal = vec3(0.0f, 0.0f, side * pi * h.x * h.y / weight);
+    }
+    return point;
+}
+
 /// A point of the whole surface. The mean over `u` of f(position) · max(weighted_normal · ω, 0) is the integral of f over
-/// the outline towards ω.
-SHADING_FN OpeningPoint opening_surface_point(uint shape, vec3 half_extent, vec2 u) {
+/// the outline towards ω, whichever faces are picked more often.
+SHADING_FN OpeningPoint opening_surface_point(uint shape, vec3 half_extent, uint face_weights, vec2 u) {
     const vec3 h = opening_turn(shape, half_extent);
     OpeningPoint point;
     if (shape == opening_ellipsoid) {
@@ -282,36 +320,22 @@ SHADING_FN OpeningPoint opening_surface_point(uint shape, vec3 half_extent, vec2
         point.weighted_normal = 4.0f * pi * h.x * h.y * h.z * unit / h;
         return point;
     }
-    // One of each pair of faces; of a cylinder half the side (about) and a cap.
-    vec3 areas = 4.0f * vec3(h.y * h.z, h.x * h.z, h.x * h.y);
-    if (shape != opening_box) {
-        areas = vec3(0.0f, 2.0f * pi * h.z * sqrt(0.5f * (h.x * h.x + h.y * h.y)), pi * h.x * h.y);
+    float total = 0.0f;
+    for (uint i = 0u; i < 6u; ++i) {
+        total += opening_face_weight(face_weights, i);
     }
-    const float sum = areas.x + areas.y + areas.z;
-    const bool upper = u.x < 0.5f;
-    const float side = upper ? 1.0f : -1.0f;
-    const float pick = (upper ? 2.0f * u.x : 2.0f * u.x - 1.0f) * sum;
-    const float whole = 2.0f * sum;
-    if (pick < areas.x) {
-        point.position = vec3(side * h.x, h.y * (2.0f * pick / areas.x - 1.0f), h.z * (2.0f * u.y - 1.0f));
-        point.weighted_normal = vec3(side * whole, 0.0f, 0.0f);
-    } else if (pick < areas.x + areas.y) {
-        const float v = (pick - areas.x) / areas.y;
-        if (shape == opening_box) {
-            point.position = vec3(h.x * (2.0f * v - 1.0f), side * h.y, h.z * (2.0f * u.y - 1.0f));
-            point.weighted_normal = vec3(0.0f, side * whole, 0.0f);
-        } else {
-            const float angle = pi * (v + (upper ? 0.0f : 1.0f));
-            point.position = vec3(h.x * cos(angle), h.y * sin(angle), h.z * (2.0f * u.y - 1.0f));
-            // The arc's length a radian times its normal is (h.y cos, h.x sin); picked with areas.y / sum over π · 2 h.z.
-            point.weighted_normal = vec3(h.y * cos(angle), h.x * sin(angle), 0.0f) * (2.0f * pi * h.z * whole / areas.y);
-        }
+    float left = min(u.x, 0.999999f) * total;
+    uint face = 0u;
+    while (face < 5u && left >= opening_face_weight(face_weights, face)) {
+        left -= opening_face_weight(face_weights, face);
+        ++face;
+    }
+    const float weight = max(opening_face_weight(face_weights, face), 1.0f);
+    const float v = min(left / weight, 1.0f);
+    if (shape == opening_box) {
+        point = opening_box_point(h, face, weight / total, v, 2.0f * u.y - 1.0f);
     } else {
-        const float v = clamp((pick - areas.x - areas.y) / max(areas.z, 1.0e-30f), 0.0f, 1.0f);
-        const vec2 disk = sample_disk(vec2(v, u.y));
-        point.position = shape == opening_box ? vec3(h.x * (2.0f * v - 1.0f), h.y * (2.0f * u.y - 1.0f), side * h.z)
-                                              : vec3(h.x * disk.x, h.y * disk.y, side * h.z);
-        point.weighted_normal = vec3(0.0f, 0.0f, side * whole);
+        point = opening_cylinder_point(h, face, weight / total, v, u);
     }
     if (opening_is_flat(half_extent)) {
         point.weighted_normal = vec3(0.0f);

@@ -93,7 +93,7 @@ struct LightData {
     vec3 half_extent;  // of the luminous opening, m
     uint opening;      // opening_… shape and flags
     vec3 weighted_normal;  // one point of an opening with a volume (opening_surface_point), world; else 0
-    float padding;
+    uint face_weights;     // of the opening: how often opening_surface_point picks each
 };
 
 /// One drawable: a part of a node.

@@ -59,6 +59,15 @@ LightData luminaire(const Opening& opening) {
     return light;
 }
 
+/// Every face now and then, some more often.
+uint face_weights(const Opening& opening) {
+    const vec3 h = opening.half_extent;
+    if (opening.shape == opening_box && h.z == 0) return 3u << 20 | 5u << 25;
+    if (opening.shape == opening_box && h.x == 0) return 3u | 5u << 5;
+    if (opening.shape == opening_box) return 9u | 4u << 5 | 7u << 10 | 2u << 15 | 31u << 20 | 5u << 25;
+    return (h.z > 0 ? 6u : 0u) | 20u << 20 | 5u << 25;
+}
+
 struct Random {
     std::mt19937 bits{5};
     float number() { return std::uniform_real_distribution<float>(0, 1)(bits); }
@@ -126,15 +135,13 @@ TEST_P(Openings, HaveTheOutlineThatTheirSurfaceHas) {
     constexpr int samples = 200000;
     const vec3 direction = normalize(vec3(0.4f, -0.3f, 0.6f));
     const float area = opening_projected_area(opening_.shape, opening_.half_extent, direction);
+    const uint weights = face_weights(opening_);
     double sum = 0;
-    vec3 mean(0);
     for (int i = 0; i < samples; ++i) {
-        const OpeningPoint point = opening_surface_point(opening_.shape, opening_.half_extent, random_.pair());
+        const OpeningPoint point = opening_surface_point(opening_.shape, opening_.half_extent, weights, random_.pair());
         sum += std::max(dot(point.weighted_normal, direction), 0.0f);
-        mean += point.position / static_cast<float>(samples);
         for (int k = 0; k < 3; ++k) EXPECT_LE(std::abs(point.position[k]), opening_.half_extent[k] * 1.0001f);
     }
-    EXPECT_LT(length(mean), 0.01f);
     if (!opening_is_flat(opening_.half_extent)) { EXPECT_NEAR(sum / samples / area, 1, 0.01) << opening_.name; }
     // And rays that meet it cover as much.
     const Frame frame = frame_from_normal(direction);
@@ -201,7 +208,7 @@ TEST_P(Openings, LightFromFarAsAPointDoes) {
     // Their points, each alone, make the same in the mean.
     double points = 0;
     for (int i = 0; i < samples; ++i) {
-        const OpeningPoint one = opening_surface_point(light_.opening, light_.half_extent, random_.pair());
+        const OpeningPoint one = opening_surface_point(light_.opening, light_.half_extent, face_weights(opening_), random_.pair());
         LightData stand_in = point;
         stand_in.position += photometry_.luminaire_to_world(light_, one.position);
         stand_in.weighted_normal = photometry_.luminaire_to_world(light_, one.weighted_normal);

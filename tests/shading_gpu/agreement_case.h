@@ -79,6 +79,7 @@ SHADING_FN LightData agreement_luminaire(uint i) {
     }
     light.weighted_normal = vec3(0.0f);
     light.radius = i % 7u == 0u ? 0.0f : length(light.half_extent);
+    light.face_weights = 9u | (4u << 5u) | (7u << 10u) | (2u << 15u) | (31u << 20u) | (5u << 25u);
     return light;
 }
 
@@ -174,7 +175,7 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
     }
     if (k == 22u) {
         LightData light = agreement_luminaire(i);
-        OpeningPoint point = opening_surface_point(light.opening, light.half_extent, vec2(v));
+        OpeningPoint point = opening_surface_point(light.opening, light.half_extent, light.face_weights, vec2(v));
         return vec4(point.position + point.weighted_normal, opening_projected_area(light.opening, light.half_extent, wi));
     }
     return v;
