@@ -17,8 +17,9 @@ bool same(const T& a, const T& b) {
 }
 
 bool uses_any(const MaterialData& material, const std::vector<std::uint32_t>& textures) {
-    constexpr std::size_t first = offsetof(MaterialData, base_color_texture);
-    std::array<TextureRef, (sizeof(MaterialData) - first) / sizeof(TextureRef)> uses;
+    // They follow one another.
+    constexpr std::size_t first = offsetof(MaterialData, base_color_texture), last = offsetof(MaterialData, clearcoat_roughness_texture);
+    std::array<TextureRef, (last - first) / sizeof(TextureRef) + 1> uses;
     std::memcpy(uses.data(), reinterpret_cast<const std::byte*>(&material) + first, sizeof(uses));
     return std::any_of(uses.begin(), uses.end(), [&](const TextureRef& use) {
         return use.texture_index != shading::no_texture &&
