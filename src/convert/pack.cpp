@@ -5,6 +5,9 @@
 #include <cstddef>
 
 #include "shading/cie_sky.h"
+#include "shading/fresnel.h"
+#include "shading/metals.h"
+#include "shading/quadrature.h"
 
 namespace heliodon::convert {
 namespace {
@@ -17,7 +20,9 @@ using shading::TextureRef;
 // std430 places these members where C++ does; a vec3 that is not followed by a scalar would break that.
 static_assert(sizeof(TextureRef) == 32);
 static_assert(offsetof(MaterialData, metallic) == 48 && offsetof(MaterialData, base_color_texture) == 96);
-static_assert(sizeof(MaterialData) == 96 + 12 * 32);
+static_assert(offsetof(MaterialData, transmittance) == 96 + 11 * 32 && offsetof(MaterialData, sheen_color) == 96 + 12 * 32);
+static_assert(offsetof(MaterialData, anisotropy_axis) == 560 && offsetof(MaterialData, anisotropy_texture) == 592);
+static_assert(sizeof(MaterialData) == 592 + 5 * 32);
 static_assert(sizeof(LightData) == 112 && offsetof(LightData, intensity) == 32 && offsetof(LightData, weighted_normal) == 96);
 static_assert(sizeof(InstanceData) == 144);
 static_assert(sizeof(shading::SkyData) == 64 && offsetof(shading::SkyData, sun_direction) == 48);
@@ -55,6 +60,80 @@ void pack_thin(const Material& material, MaterialData& data) {
     float mean = 0;
     for (std::size_t i = 0; i < k.size(); ++i) mean += 2 * k[i] / static_cast<float>(i + 2);
     data.opacity = 1 - std::clamp(mean, 0.0f, 1.0f);
+}
+
+bool is_transmissive(const Material& material) {
+    return material.model == MaterialModel::dielectric ||
+           (material.model == MaterialModel::standard && material.transmission > 0.0f);
+}
+
+/// 1/m, by Beer & Lambert's law. What is black after the distance is nearly so: 10⁻⁶.
+glm::vec3 absorption(const Material& material) {
+    if (!is_transmissive(material) || material.thin_walled || !std::isfinite(material.attenuation_distance_m)) return glm::vec3(0);
+    return -glm::log(glm::max(material.attenuation_color, glm::vec3(1e-6f))) / material.attenuation_distance_m;
+}
+
+/// Metals of this model are the standard model's with another reflectance; its colour is that at normal incidence.
+void pack_conductor(const Material& material, MaterialData& data) {
+    shading::ConductorIndices indices{material.conductor_eta, material.conductor_k};
+    if (material.metal != NamedMetal::none)
+        indices = shading::metal_indices(static_cast<shading::Metal>(static_cast<int>(material.metal) - 1));
+    static_assert(static_cast<int>(NamedMetal::gold) - 1 == static_cast<int>(shading::Metal::gold) &&
+                  static_cast<int>(NamedMetal::chromium) - 1 == static_cast<int>(shading::Metal::chromium));
+    data.conductor_eta = indices.eta;
+    data.conductor_k = indices.k;
+    const shading::GaussLegendre<32> rule;
+    for (int c = 0; c < 3; ++c) {
+        double average = 0;
+        for (std::size_t i = 0; i < rule.x.size(); ++i)
+            average += 2 * rule.weight[i] * rule.x[i] * shading::fresnel_conductor(static_cast<float>(rule.x[i]), indices.eta[c], indices.k[c]);
+        data.conductor_average[c] = static_cast<float>(average);
+        data.base_color[c] = shading::fresnel_conductor(1.0f, indices.eta[c], indices.k[c]);
+    }
+    data.metallic = 1;
+    data.transmission = data.clearcoat = 0;
+    data.base_color_texture.texture_index = shading::no_texture;
+}
+
+void pack_dielectric(MaterialData& data) {
+    data.base_color = data.specular_color = glm::vec3(1);
+    data.specular = data.transmission = 1;
+    data.metallic = data.clearcoat = 0;
+    data.base_color_texture.texture_index = shading::no_texture;
+}
+
+void pack_extended(const Scene& scene, const Material& material, MaterialData& data) {
+    using enum MaterialModel;
+    if (material.model == conductor) pack_conductor(material, data);
+    if (material.model == dielectric) pack_dielectric(data);
+    if (material.model == disney || material.model == oren_nayar) data.transmission = 0;
+    data.anisotropy = material.anisotropy;
+    data.anisotropy_axis = {std::cos(material.anisotropy_rotation_rad), std::sin(material.anisotropy_rotation_rad)};
+    data.sheen_color = material.sheen_color;
+    data.sheen_roughness = material.sheen_roughness;
+    data.iridescence = material.iridescence;
+    data.film_ior = material.iridescence_ior;
+    data.film_thickness_nm = material.iridescence_thickness_nm;
+    data.film_thinnest_nm = material.iridescence_thinnest_nm;
+    data.absorption = absorption(material);
+    data.subsurface = material.subsurface;
+    data.specular_tint = material.specular_tint;
+    data.sheen = material.sheen;
+    data.sheen_tint = material.sheen_tint;
+    data.clearcoat_gloss = material.clearcoat_gloss;
+    data.sigma = material.sigma_rad.value_or(-1.0f);
+    data.anisotropy_texture = pack_texture(scene, material.anisotropy_texture);
+    data.sheen_color_texture = pack_texture(scene, material.sheen_color_texture);
+    data.sheen_roughness_texture = pack_texture(scene, material.sheen_roughness_texture);
+    data.iridescence_texture = pack_texture(scene, material.iridescence_texture);
+    data.film_thickness_texture = pack_texture(scene, material.iridescence_thickness_texture);
+    const bool sheet = material.thin_walled && is_transmissive(material);
+    // A sheet has no inside: both of its sides are alike.
+    if (sheet) data.flags |= shading::material_flag_thin_walled | shading::material_flag_two_sided;
+    const bool layers = material.model == standard && (material.anisotropy > 0 || material.sheen_color != glm::vec3(0) || material.iridescence > 0);
+    if (sheet || layers || material.model == disney || material.model == oren_nayar || material.model == conductor ||
+        data.absorption != glm::vec3(0))
+        data.flags |= shading::material_flag_extended;
 }
 
 glm::vec3 unit_or(const glm::vec3& vector, const glm::vec3& fallback) {
@@ -95,6 +174,7 @@ MaterialData pack_material(const Scene& scene, const Material& material) {
     data.clearcoat_texture = pack_texture(scene, material.clearcoat_texture);
     data.clearcoat_roughness_texture = pack_texture(scene, material.clearcoat_roughness_texture);
     if (material.model == MaterialModel::thin) pack_thin(material, data);
+    pack_extended(scene, material, data);
     return data;
 }
 

@@ -150,6 +150,7 @@ private:
         if (const Json* transmission = extension(json, "KHR_materials_transmission")) {
             material.transmission = number(*transmission, "transmissionFactor", 0.0f);
             linear(draft, &Material::transmission_texture, *transmission, "transmissionTexture");
+            read_volume(json, material);
         }
         if (const Json* specular = extension(json, "KHR_materials_specular")) {
             material.specular = number(*specular, "specularFactor", 1.0f);
@@ -166,12 +167,51 @@ private:
             linear(draft, &Material::clearcoat_roughness_texture, *coat, "clearcoatRoughnessTexture");
             if (coat->contains("clearcoatNormalTexture")) notes_.insert("ignores the clear coat's own normal map");
         }
+        read_layers(json, draft);
         if (extension(json, "KHR_materials_unlit")) {
             // Luminance of the reference display's white, IEC 61966-2-1:1999, table 1.
             constexpr float display_white_nits = 80.0f;
             material.model = MaterialModel::unlit;
             material.emission_nits = glm::vec3(display_white_nits);
             notes_.insert("shows unlit materials like a display whose white has 80 cd/m²");
+        }
+    }
+
+    /// Without a thickness of the volume what is transmissive is a sheet; a thickness says no more here than that there is a
+    /// solid, whose own surfaces light meets.
+    void read_volume(const Json& json, Material& material) {
+        const Json* volume = extension(json, "KHR_materials_volume");
+        material.thin_walled = !volume || !(number(*volume, "thicknessFactor", 0.0f) > 0.0f);
+        if (!volume || material.thin_walled) return;
+        material.attenuation_color = color(*volume, "attenuationColor");
+        const float distance = number(*volume, "attenuationDistance", material.attenuation_distance_m);
+        if (distance > 0) material.attenuation_distance_m = distance;
+        notes_.insert("takes volumes as the solids that their meshes are, whatever thickness they state");
+    }
+
+    void read_layers(const Json& json, MaterialDraft& draft) {
+        Material& material = draft.material;
+        if (const Json* anisotropy = extension(json, "KHR_materials_anisotropy")) {
+            material.anisotropy = number(*anisotropy, "anisotropyStrength", 0.0f);
+            material.anisotropy_rotation_rad = number(*anisotropy, "anisotropyRotation", 0.0f);
+            linear(draft, &Material::anisotropy_texture, *anisotropy, "anisotropyTexture");
+            if (material.transmission > 0) notes_.insert("keeps transmissive surfaces as rough along as across their tangents");
+        }
+        if (const Json* sheen = extension(json, "KHR_materials_sheen")) {
+            material.sheen_color = sheen->contains("sheenColorFactor") ? color(*sheen, "sheenColorFactor") : glm::vec3(0);
+            material.sheen_roughness = number(*sheen, "sheenRoughnessFactor", 0.0f);
+            linear(draft, &Material::sheen_roughness_texture, *sheen, "sheenRoughnessTexture");
+            if (const auto reference = texture(sheen->value("sheenColorTexture", Json())))
+                use(draft, &Material::sheen_color_texture, *reference,
+                    opaque_image(reference->image, TextureFormat::srgb8, reference->sampler));
+        }
+        if (const Json* film = extension(json, "KHR_materials_iridescence")) {
+            material.iridescence = number(*film, "iridescenceFactor", 0.0f);
+            material.iridescence_ior = number(*film, "iridescenceIor", 1.3f);
+            material.iridescence_thickness_nm = number(*film, "iridescenceThicknessMaximum", 400.0f);
+            material.iridescence_thinnest_nm = number(*film, "iridescenceThicknessMinimum", 100.0f);
+            linear(draft, &Material::iridescence_texture, *film, "iridescenceTexture");
+            linear(draft, &Material::iridescence_thickness_texture, *film, "iridescenceThicknessTexture");
         }
     }
 
@@ -261,7 +301,7 @@ private:
 }  // namespace
 
 bool MaterialDraft::needs_tangents() const {
-    return std::any_of(slots.begin(), slots.end(), [](const Slot& slot) {
+    return material.anisotropy > 0 || std::any_of(slots.begin(), slots.end(), [](const Slot& slot) {
         return slot.use == &Material::normal_texture || slot.use == &Material::bump_texture;
     });
 }

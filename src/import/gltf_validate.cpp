@@ -12,7 +12,8 @@ namespace {
 constexpr std::array known_extensions = {
     "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",      "KHR_materials_transmission",
     "KHR_materials_specular", "KHR_materials_clearcoat",         "KHR_materials_unlit",    "KHR_mesh_quantization",
-    "KHR_texture_transform",  "KHR_draco_mesh_compression",      "EXT_meshopt_compression"};
+    "KHR_texture_transform",  "KHR_draco_mesh_compression",      "EXT_meshopt_compression", "KHR_materials_anisotropy",
+    "KHR_materials_sheen",    "KHR_materials_iridescence",       "KHR_materials_volume"};
 
 bool is_known(const std::string& name) {
     return std::find(known_extensions.begin(), known_extensions.end(), name) != known_extensions.end();

@@ -299,7 +299,9 @@ Result<void> GpuScene::upload_materials(const std::vector<std::uint32_t>& change
         MaterialData& m = table[index];
         for (TextureRef* use : {&m.base_color_texture, &m.orm_texture, &m.occlusion_texture, &m.normal_texture,
                                 &m.bump_texture, &m.emission_texture, &m.transmission_texture, &m.specular_texture,
-                                &m.specular_color_texture, &m.clearcoat_texture, &m.clearcoat_roughness_texture})
+                                &m.specular_color_texture, &m.clearcoat_texture, &m.clearcoat_roughness_texture,
+                                &m.anisotropy_texture, &m.sheen_color_texture, &m.sheen_roughness_texture,
+                                &m.iridescence_texture, &m.film_thickness_texture})
             patch(*use);
     }
     update.materials_uploaded += static_cast<int>(changed.size());
@@ -342,12 +344,13 @@ Result<void> GpuScene::stand_in_for_light(std::uint32_t index, const shading::Li
 
 void GpuScene::classify() {
     bounds_ = flat_.bounds();
-    has_tested_ = has_blended_ = false;
+    has_tested_ = has_blended_ = has_extended_ = false;
     for (const shading::InstanceData& instance : flat_.instances()) {
         if (!(instance.flags & shading::instance_flag_visible)) continue;
         const std::uint32_t flags = flat_.materials()[instance.material].flags;
         has_blended_ |= (flags & shading::material_flag_alpha_blend) != 0;
         has_tested_ |= (flags & shading::material_flag_alpha_mask) != 0;
+        has_extended_ |= (flags & shading::material_flag_extended) != 0;
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,7 +58,13 @@ enum class MaterialModel : std::uint8_t {
     lambert,   ///< exactly base_color/π and nothing else
     unlit,     ///< base_color × emission_nits' white: shown as it is, takes no light (KHR_materials_unlit)
     thin,      ///< a pane of no thickness: lets `transmittance` pass straight on and mirrors `reflectance`
+    disney,      ///< Burley's principled BRDF of 2012
+    oren_nayar,  ///< rough and diffuse, by `sigma_rad` or else by `roughness`
+    conductor,   ///< a metal by its index n + ik, or by name
+    dielectric,  ///< clear and colourless: a solid's interface of `ior`
 };
+/// Metals whose measured index the program knows (shading/metals.h).
+enum class NamedMetal : std::uint8_t { none, gold, silver, copper, aluminium, iron, chromium };
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 struct Material {
@@ -83,6 +91,27 @@ struct Material {
     std::array<float, 6> transmittance{1};
     float reflectance = 0.0f;  ///< thin: share mirrored, at any incidence
 
+    float anisotropy = 0.0f;               ///< KHR_materials_anisotropy's strength; disney: anisotropic
+    float anisotropy_rotation_rad = 0.0f;  ///< from the tangent towards the bitangent
+    glm::vec3 sheen_color{0.0f};           ///< KHR_materials_sheen
+    float sheen_roughness = 0.0f;
+    float iridescence = 0.0f;  ///< KHR_materials_iridescence
+    float iridescence_ior = 1.3f;
+    float iridescence_thickness_nm = 400.0f;    ///< of the film; where the texture is 1
+    float iridescence_thinnest_nm = 100.0f;     ///< where it is 0
+    glm::vec3 attenuation_color{1.0f};          ///< of white light after attenuation_distance_m within the solid
+    float attenuation_distance_m = std::numeric_limits<float>::infinity();
+    bool thin_walled = false;                   ///< transmission passes a sheet instead of a solid
+    glm::vec3 conductor_eta{1.0f};              ///< conductor without a name: n and k of each channel, against air
+    glm::vec3 conductor_k{0.0f};
+    NamedMetal metal = NamedMetal::none;
+    float subsurface = 0.0f;  ///< disney, as what follows
+    float specular_tint = 0.0f;
+    float sheen = 0.0f;
+    float sheen_tint = 0.5f;
+    float clearcoat_gloss = 1.0f;
+    std::optional<float> sigma_rad;  ///< oren_nayar: standard deviation of the facets' slope angle
+
     TextureUse base_color_texture;  ///< srgb8; alpha multiplies the opacity
     TextureUse orm_texture;         ///< linear8: occlusion R, roughness G, metallic B; factors multiply
     TextureUse occlusion_texture;   ///< linear8: R; the same texture as orm_texture where packed together
@@ -94,6 +123,11 @@ struct Material {
     TextureUse specular_color_texture;       ///< srgb8
     TextureUse clearcoat_texture;            ///< linear8: R
     TextureUse clearcoat_roughness_texture;  ///< linear8: G
+    TextureUse anisotropy_texture;             ///< linear8: direction RG, strength B
+    TextureUse sheen_color_texture;            ///< srgb8
+    TextureUse sheen_roughness_texture;        ///< linear8: A
+    TextureUse iridescence_texture;            ///< linear8: R
+    TextureUse iridescence_thickness_texture;  ///< linear8: G
 };
 
 }  // namespace heliodon

@@ -18,7 +18,12 @@ std::vector<TextureId> textures_of(const Material& material) {
             material.specular_texture.texture,
             material.specular_color_texture.texture,
             material.clearcoat_texture.texture,
-            material.clearcoat_roughness_texture.texture};
+            material.clearcoat_roughness_texture.texture,
+            material.anisotropy_texture.texture,
+            material.sheen_color_texture.texture,
+            material.sheen_roughness_texture.texture,
+            material.iridescence_texture.texture,
+            material.iridescence_thickness_texture.texture};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Shapes, lights and materials.
+// Shapes and lights.
 #include <fmt/format.h>
 
 #include <limits>
@@ -125,75 +125,6 @@ LightBlock::Photometry read_photometry(ObjectReader& object) {
     return photometry;
 }
 
-AlphaMode default_alpha_mode(const MaterialBlock& block) {
-    const bool see_through = block.material.opacity < 1 || !block.textures.opacity.empty();
-    return see_through ? AlphaMode::blend : AlphaMode::opaque;
-}
-
-void read_factors(ObjectReader& object, Material& material) {
-    object.read("base_color", material.base_color, unit_interval);
-    object.read("metallic", material.metallic, unit_interval);
-    object.read("roughness", material.roughness, unit_interval);
-    object.read("ior", material.ior, Range{.low = 1});
-    object.read("transmission", material.transmission, unit_interval);
-    if (const auto emission = object.find("emission_nits"))
-        material.emission_nits = emission->number_or_vector(not_negative);
-    object.read("specular", material.specular, unit_interval);
-    object.read("specular_color", material.specular_color, not_negative);
-    object.read("clearcoat", material.clearcoat, unit_interval);
-    object.read("clearcoat_roughness", material.clearcoat_roughness, unit_interval);
-    object.read("opacity", material.opacity, unit_interval);
-    object.read("alpha_cutoff", material.alpha_cutoff, unit_interval);
-    object.read("two_sided", material.two_sided);
-    object.read("normal_scale", material.normal_scale);
-    object.read("bump_scale_m", material.bump_scale_m);
-    object.read("occlusion_strength", material.occlusion_strength, unit_interval);
-}
-
-/// `transmittance` is one number, or up to six coefficients of a polynomial in the cosine of incidence.
-void read_pane(ObjectReader& object, Material& material) {
-    const bool thin = material.model == MaterialModel::thin;
-    const auto transmittance = thin ? object.require("transmittance") : object.find("transmittance");
-    const auto reflectance = object.find("reflectance");
-    for (const auto& key : {transmittance, reflectance})
-        if (key && !thin) throw Refusal{key->path(), "expected with the model \"thin\" alone"};
-    if (!thin) return;
-    if (reflectance) material.reflectance = reflectance->number(unit_interval);
-    if (transmittance->json().is_number()) {
-        material.transmittance = {transmittance->number(unit_interval)};
-    } else {
-        const std::size_t most = material.transmittance.size();
-        if (!transmittance->json().is_array() || transmittance->json().empty() || transmittance->json().size() > most)
-            transmittance->refuse(fmt::format("a number or a list of 1 to {} numbers", most));
-        material.transmittance = {};
-        std::size_t power = 0;
-        for (const JsonCursor& coefficient : transmittance->elements()) material.transmittance[power++] = coefficient.number();
-    }
-    // The polynomial is held within 0 and 1, so that this bounds what leaves a pane by what arrives.
-    float most_passing = 0;
-    for (int step = 0; step <= 100; ++step) {
-        float passing = 0;
-        for (std::size_t i = material.transmittance.size(); i-- > 0;)
-            passing = passing * static_cast<float>(step) * 0.01f + material.transmittance[i];
-        most_passing = std::max(most_passing, std::min(passing, 1.0f));
-    }
-    constexpr float rounding = 1e-3f;
-    if (most_passing + material.reflectance > 1 + rounding)
-        throw Refusal{object.cursor().path(), fmt::format("expected transmittance and reflectance of at most 1 together, found {:.4g}",
-                                                          most_passing + material.reflectance)};
-}
-
-void read_textures(ObjectReader& object, MaterialTextures& textures) {
-    object.read("base_color_texture", textures.base_color);
-    object.read("roughness_texture", textures.roughness);
-    object.read("metallic_texture", textures.metallic);
-    object.read("occlusion_texture", textures.occlusion);
-    object.read("normal_texture", textures.normal);
-    object.read("bump_texture", textures.bump);
-    object.read("emission_texture", textures.emission);
-    object.read("opacity_texture", textures.opacity);
-}
-
 }  // namespace
 
 std::variant<Shape, Mesh> read_shape(const JsonCursor& cursor) {
@@ -229,28 +160,6 @@ LightBlock read_light(const JsonCursor& cursor) {
         light.intensity = read_intensity_cd(object, light);
         object.read("radius_m", light.radius_m, not_negative);
     }
-    object.finish();
-    return block;
-}
-
-MaterialBlock read_material(const std::string& name, const JsonCursor& cursor) {
-    ObjectReader object(cursor);
-    MaterialBlock block;
-    block.material.name = name;
-    if (const auto brdf = object.find("brdf"))
-        brdf->refuse_as_unsupported("measured BRDFs", "the standard model's keys");
-    if (const auto model = object.find("model"))
-        block.material.model = model->one_of<MaterialModel>({{"standard", MaterialModel::standard},
-                                                             {"lambert", MaterialModel::lambert},
-                                                             {"unlit", MaterialModel::unlit},
-                                                             {"thin", MaterialModel::thin}});
-    read_factors(object, block.material);
-    read_textures(object, block.textures);
-    read_pane(object, block.material);
-    block.material.alpha_mode = default_alpha_mode(block);
-    if (const auto mode = object.find("alpha_mode"))
-        block.material.alpha_mode = mode->one_of<AlphaMode>(
-            {{"opaque", AlphaMode::opaque}, {"mask", AlphaMode::mask}, {"blend", AlphaMode::blend}});
     object.finish();
     return block;
 }

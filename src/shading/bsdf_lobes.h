@@ -2,41 +2,14 @@
 // the light's direction. docs/materials.md derives it. Conventions: bsdf.h.
 #ifndef HELIODON_SHADING_BSDF_LOBES_H
 #define HELIODON_SHADING_BSDF_LOBES_H
+#include "shading/disney.h"
 #include "shading/fresnel.h"
 #include "shading/ggx_albedo.h"
-#include "shading/scene_data.h"
+#include "shading/oren_nayar.h"
+#include "shading/sheen.h"
+#include "shading/surface.h"
+#include "shading/thin_film.h"
 SHADING_BEGIN
-
-/// A material at one point, after its textures.
-struct Surface {
-    vec3 base_color;
-    float metallic;
-    vec3 specular_color;
-    float specular;
-    float roughness;  // perceptual
-    float ior;
-    float transmission;
-    float clearcoat;
-    float clearcoat_roughness;
-    uint model;   // material_model_…
-    bool inside;  // the viewer is within the solid: wo.z > 0 looks at the back of a transmissive surface
-};
-
-SHADING_FN Surface surface_default() {
-    Surface s;
-    s.base_color = vec3(0.8f);
-    s.metallic = 0.0f;
-    s.specular_color = vec3(1.0f);
-    s.specular = 1.0f;
-    s.roughness = 1.0f;
-    s.ior = 1.5f;
-    s.transmission = 0.0f;
-    s.clearcoat = 0.0f;
-    s.clearcoat_roughness = 0.0f;
-    s.model = material_model_standard;
-    s.inside = false;
-    return s;
-}
 
 /// What the models need of one surface and one viewing direction.
 struct BsdfLobes {
@@ -66,6 +39,14 @@ struct BsdfLobes {
     float probability_glass;
     float probability_coat;
     float probability_through;  // the cosine lobe on the far side
+
+    // Where is_extended() holds.
+    vec2 alphas;        // along the local x and y
+    bool stretched;     // they differ
+    vec3 metal_f0;      // of the Schlick term that stands for the metal where albedos are asked for
+    vec3 film_base;     // normal reflectance of the dielectric under its film
+    float sheen_below;  // 1 − the most that the sheen returns at wo
+    float probability_sheen;
 };
 
 SHADING_CONST float clearcoat_f0 = 0.04f;  // KHR_materials_clearcoat: index 1.5
@@ -74,11 +55,11 @@ SHADING_FN vec3 schlick_albedo(vec3 f0, float f90, vec3 multiple, vec2 split) {
     return f0 * split.x + vec3(f90) * split.y + multiple * (1.0f - split.x - split.y);
 }
 /// What the dielectric's specular reflection leaves for its base.
-SHADING_FN vec3 dielectric_below(BsdfLobes l, vec2 split) {
+SHADING_FN vec3 dielectric_below(SHADING_IN(BsdfLobes) l, vec2 split) {
     return max(vec3(1.0f) - schlick_albedo(l.dielectric_f0, l.dielectric_f90, l.dielectric_multiple, split),
                vec3(0.0f));
 }
-SHADING_FN float coat_directional_albedo(Surface s, vec2 split) {
+SHADING_FN float coat_directional_albedo(SHADING_IN(Surface) s, vec2 split) {
     return s.clearcoat * (clearcoat_f0 * split.x + split.y);
 }
 /// How much of the layers below passes the coat: never more than it lets through either way, so that the
@@ -86,11 +67,31 @@ SHADING_FN float coat_directional_albedo(Surface s, vec2 split) {
 SHADING_FN float coat_transmittance(float coat_albedo_o, float coat_albedo_i) {
     return 1.0f - max(coat_albedo_o, coat_albedo_i);
 }
+/// What the sheen leaves for the layers below, seen from one direction: KHR_materials_sheen.
+SHADING_FN float sheen_transmittance(SHADING_IN(Surface) s, float mu) {
+    return 1.0f - max_component(s.sheen_color) * sheen_albedo(mu, s.sheen_roughness);
+}
+
+/// (A, B) of the surface's GGX from `w`.
+SHADING_FN vec2 lobe_split(SHADING_IN(Surface) s, SHADING_IN(BsdfLobes) l, vec3 w) {
+    if (is_extended(s) && l.stretched) {
+        return stretched_albedo_split(w, l.alphas);
+    }
+    return ggx_albedo_split(w.z, l.alpha);
+}
 
 /// An index whose refraction single precision resolves: at 1 every facet sends light straight on and the lobe
 /// has no width (1.001 reflects 2.5·10⁻⁷); glTF's 0 stands for "reflects everything".
 SHADING_FN float glass_ior(float ior) {
     return abs(ior - 1.0f) < 1.0e-3f ? 1.001f : clamp(ior, 0.01f, 100.0f);
+}
+/// Whether what goes through leaves on the other side of a sheet, straight on.
+SHADING_FN bool passes_sheet(SHADING_IN(Surface) s) {
+    return is_extended(s) && s.thin_walled;
+}
+/// The 1/eta² of radiance that goes into another medium.
+SHADING_FN float radiance_scale(SHADING_IN(Surface) s, SHADING_IN(BsdfLobes) l) {
+    return passes_sheet(s) ? 1.0f : 1.0f / (l.eta * l.eta);
 }
 
 /// Share of glass's multiple scattering that is refracted: Kulla & Conty 2017. The two sides' shares are
@@ -108,38 +109,54 @@ SHADING_FN float glass_multiple_through(float alpha, float eta) {
 }
 
 /// Diffuse part of the directional albedo (what a sky's irradiance/π is multiplied by).
-SHADING_FN vec3 bsdf_diffuse_albedo_prepared(Surface s, BsdfLobes l) {
+SHADING_FN vec3 bsdf_diffuse_albedo_prepared(SHADING_IN(Surface) s, SHADING_IN(BsdfLobes) l) {
     if (s.model == material_model_unlit) {
         return vec3(0.0f);
     }
     if (s.model == material_model_lambert) {
         return s.base_color;
     }
-    return s.base_color * l.dielectric_below * l.dielectric * coat_transmittance(l.coat_albedo, l.coat_average);
+    if (shading_extended && s.model != material_model_standard) {
+        return l.diffuse;
+    }
+    vec3 albedo = s.base_color * l.dielectric_below * l.dielectric;
+    if (is_extended(s)) {
+        albedo = albedo * l.sheen_below + s.sheen_color * ((1.0f - l.sheen_below) / max(max_component(s.sheen_color), 1.0e-6f));
+    }
+    return albedo * coat_transmittance(l.coat_albedo, l.coat_average);
 }
 /// Specular part without the coat's: reflections of the roughness of the surface.
-SHADING_FN vec3 bsdf_specular_albedo_prepared(Surface s, BsdfLobes l) {
+SHADING_FN vec3 bsdf_specular_albedo_prepared(SHADING_IN(Surface) s, SHADING_IN(BsdfLobes) l) {
+    if (shading_extended && s.model == material_model_disney) {
+        return schlick_albedo(l.metal_f0, 1.0f, vec3(0.0f), l.split);
+    }
     if (s.model != material_model_standard) {
         return vec3(0.0f);
     }
-    vec3 metal = schlick_albedo(s.base_color, 1.0f, l.metal_multiple, l.split) * l.metal;
+    vec3 metal_f0 = is_extended(s) ? l.metal_f0 : s.base_color;
+    vec3 metal = schlick_albedo(metal_f0, 1.0f, l.metal_multiple, l.split) * l.metal;
     vec3 dielectric = (vec3(1.0f) - l.dielectric_below) * l.dielectric;
     float f0 = f0_from_ior(s.ior);
     vec3 glass = min(l.glass_specular * (f0 * l.split.x + l.split.y), vec3(1.0f)) * l.glass;
-    return (metal + dielectric + glass) * (1.0f - l.coat_albedo);
+    vec3 albedo = metal + dielectric + glass;
+    if (is_extended(s)) {
+        albedo = albedo * l.sheen_below;
+    }
+    return albedo * (1.0f - l.coat_albedo);
 }
 /// Reflection of the clear coat, of its own roughness.
-SHADING_FN float bsdf_coat_albedo_prepared(BsdfLobes l) {
+SHADING_FN float bsdf_coat_albedo_prepared(SHADING_IN(BsdfLobes) l) {
     return l.coat_albedo;
 }
 /// What glass lets through.
-SHADING_FN vec3 bsdf_transmission_albedo_prepared(Surface s, BsdfLobes l) {
+SHADING_FN vec3 bsdf_transmission_albedo_prepared(SHADING_IN(Surface) s, SHADING_IN(BsdfLobes) l) {
     float f0 = f0_from_ior(s.ior);
     vec3 reflected = min(l.glass_specular * (f0 * l.split.x + l.split.y), vec3(1.0f));
-    return (vec3(1.0f) - vec3(max_component(reflected))) * l.transmission_color * l.glass * (1.0f - l.coat_albedo);
+    vec3 albedo = (vec3(1.0f) - vec3(max_component(reflected))) * l.transmission_color * l.glass * (1.0f - l.coat_albedo);
+    return is_extended(s) ? albedo * l.sheen_below : albedo;
 }
 
-SHADING_FN void prepare_substances(Surface s, SHADING_INOUT(BsdfLobes) l) {
+SHADING_FN void prepare_substances(SHADING_IN(Surface) s, SHADING_INOUT(BsdfLobes) l) {
     l.alpha = ggx_alpha(s.roughness);
     l.coat_alpha = ggx_alpha(s.clearcoat_roughness);
     l.eta = s.inside ? 1.0f / glass_ior(s.ior) : glass_ior(s.ior);
@@ -155,16 +172,65 @@ SHADING_FN void prepare_substances(Surface s, SHADING_INOUT(BsdfLobes) l) {
     l.dielectric_f0 = min(f0_from_ior(s.ior) * s.specular_color, vec3(1.0f)) * s.specular;
     l.dielectric_f90 = s.ior == 1.0f ? 0.0f : s.specular;
     l.glass_specular = s.specular_color * s.specular;
-    // Light crosses a solid's surface twice; each crossing takes the root (Burley 2015, section 5.2).
-    l.transmission_color = sqrt(max(s.base_color, vec3(0.0f)));
+    // Light crosses a solid's surface twice; each crossing takes the root (Burley 2015, section 5.2). A sheet is both.
+    vec3 tint = max(s.base_color, vec3(0.0f));
+    l.transmission_color = passes_sheet(s) ? tint : sqrt(tint);
 }
 
-SHADING_FN void prepare_albedos(Surface s, vec3 wo, SHADING_INOUT(BsdfLobes) l) {
-    l.split = ggx_albedo_split(wo.z, l.alpha);
+/// A Schlick F0 whose reflectance (F90 = 1) is no less than the film's over `base_f0` at any of six angles.
+SHADING_FN vec3 film_schlick_f0(SHADING_IN(Surface) s, vec3 base_f0) {
+    vec3 f0 = vec3(0.0f);
+    for (uint i = 0u; i < 6u; ++i) {
+        float cosine = 1.0f - float(i) * 0.17f;
+        float grazing = schlick_weight(cosine);
+        vec3 film = fresnel_thin_film(cosine, s.film_ior, s.film_thickness_nm, base_f0);
+        f0 = max(f0, (film - vec3(grazing)) / (1.0f - grazing));
+    }
+    return mix(base_f0, max(f0, base_f0), s.iridescence);
+}
+
+/// Before the albedos: they follow from what is found here.
+SHADING_FN void prepare_extended(SHADING_IN(Surface) s, vec3 wo, SHADING_INOUT(BsdfLobes) l) {
+    l.metal_f0 = s.base_color;
+    l.film_base = l.dielectric_f0;
+    if (s.anisotropy > 0.0f) {
+        // KHR_materials_anisotropy.
+        l.alphas = vec2(mix(l.alpha, 1.0f, s.anisotropy * s.anisotropy), l.alpha);
+        l.stretched = true;
+        l.alpha = sqrt(0.5f * dot(l.alphas, l.alphas));
+    }
+    if (s.iridescence > 0.0f) {
+        l.metal_f0 = film_schlick_f0(s, s.base_color);
+        l.dielectric_f0 = film_schlick_f0(s, l.dielectric_f0);
+        l.dielectric_f90 = mix(l.dielectric_f90, 1.0f, s.iridescence);
+    }
+    if (max_component(s.sheen_color) > 0.0f && !s.inside) {
+        l.sheen_below = sheen_transmittance(s, wo.z);
+    }
+}
+
+SHADING_FN float sheet_albedo(float mu, float alpha) {
+    vec2 split = ggx_albedo_split(mu, alpha);
+    return split.x + split.y;
+}
+
+SHADING_FN void prepare_albedos(SHADING_IN(Surface) s, vec3 wo, SHADING_INOUT(BsdfLobes) l) {
+    l.split = lobe_split(s, l, wo);
     vec2 average = ggx_albedo_split_average(l.alpha);
+    vec3 metal_f0 = s.base_color;
+    if (is_extended(s)) {
+        metal_f0 = l.metal_f0;
+        if (l.stretched) {
+            average = stretched_split_average(l.alphas);
+        }
+    }
     l.albedo = l.split.x + l.split.y;
     l.albedo_average = average.x + average.y;
-    l.metal_multiple = multiple_scattering_fresnel(fresnel_schlick_average(s.base_color, 1.0f), l.albedo_average);
+    vec3 metal_average = fresnel_schlick_average(metal_f0, 1.0f);
+    if (is_extended(s) && s.conductor) {
+        metal_average = s.conductor_average;
+    }
+    l.metal_multiple = multiple_scattering_fresnel(metal_average, l.albedo_average);
     l.dielectric_multiple =
         multiple_scattering_fresnel(fresnel_schlick_average(l.dielectric_f0, l.dielectric_f90), l.albedo_average);
     l.dielectric_below = dielectric_below(l, l.split);
@@ -175,32 +241,66 @@ SHADING_FN void prepare_albedos(Surface s, vec3 wo, SHADING_INOUT(BsdfLobes) l) 
         l.coat_average = coat_directional_albedo(s, ggx_albedo_split_average(l.coat_alpha));
     }
     if (l.glass > 0.0f) {
-        l.glass_lost = 1.0f - glass_albedo(wo.z, l.alpha, l.eta);
-        l.glass_through = glass_multiple_through(l.alpha, l.eta);
+        if (passes_sheet(s)) {
+            // Reflected or passed on, the facets' light is as much as at Fresnel 1.
+            l.glass_lost = 1.0f - sheet_albedo(wo.z, l.alpha);
+            l.glass_through = 1.0f - glass_fresnel_average(l.eta);
+        } else {
+            l.glass_lost = 1.0f - glass_albedo(wo.z, l.alpha, l.eta);
+            l.glass_through = glass_multiple_through(l.alpha, l.eta);
+        }
     }
 }
 
 /// Lobes are sampled in proportion to the light they return.
-SHADING_FN void prepare_probabilities(Surface s, SHADING_INOUT(BsdfLobes) l) {
-    vec3 single = (s.base_color * l.split.x + vec3(l.split.y)) * l.metal +
+SHADING_FN void prepare_probabilities(SHADING_IN(Surface) s, SHADING_INOUT(BsdfLobes) l) {
+    vec3 metal_f0 = is_extended(s) ? l.metal_f0 : s.base_color;
+    vec3 single = (metal_f0 * l.split.x + vec3(l.split.y)) * l.metal +
                   (l.dielectric_f0 * l.split.x + vec3(l.dielectric_f90 * l.split.y)) * l.dielectric;
     vec3 multiple = (l.metal_multiple * l.metal + l.dielectric_multiple * l.dielectric) * (1.0f - l.albedo);
     float below_coat = 1.0f - l.coat_albedo;
+    float sheen = 0.0f;
+    if (is_extended(s)) {
+        sheen = (1.0f - l.sheen_below) * below_coat;
+        below_coat = below_coat * l.sheen_below;
+    }
     float specular = luminance(single) * below_coat;
     float diffuse = luminance(multiple + s.base_color * l.dielectric_below * l.dielectric) * below_coat +
                     l.glass * l.glass_lost * (1.0f - l.glass_through) * below_coat;
     float through = luminance(l.transmission_color) * l.glass * l.glass_lost * l.glass_through * below_coat;
     float glass = l.glass * (1.0f - l.glass_lost) * below_coat;
-    float sum = specular + diffuse + glass + l.coat_albedo + through;
+    float sum = specular + diffuse + glass + l.coat_albedo + through + sheen;
     float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
     l.probability_specular = specular * scale;
     l.probability_diffuse = diffuse * scale;
     l.probability_glass = glass * scale;
     l.probability_coat = l.coat_albedo * scale;
     l.probability_through = through * scale;
+    l.probability_sheen = sheen * scale;
 }
 
-SHADING_FN BsdfLobes bsdf_prepare(Surface s, vec3 wo) {
+/// Its albedos are those of GGX and Lambert of like colours: what samples lobes, and the real-time engine's sky, go by.
+SHADING_FN void prepare_disney(SHADING_IN(Surface) s, vec3 wo, SHADING_INOUT(BsdfLobes) l) {
+    l.alphas = disney_alphas(s.roughness, s.anisotropy);
+    l.alpha = min(sqrt(0.5f * dot(l.alphas, l.alphas)), 1.0f);
+    l.coat_alpha = disney_coat_alpha(s.clearcoat_gloss);
+    l.metal_f0 = disney_f0(s);
+    l.split = ggx_albedo_split(wo.z, l.alpha);
+    l.diffuse = s.base_color * (1.0f - s.metallic);
+    l.coat_albedo = 0.25f * s.clearcoat * mix(clearcoat_f0, 1.0f, schlick_weight(wo.z));
+    float specular = luminance(schlick_albedo(l.metal_f0, 1.0f, vec3(0.0f), l.split));
+    float diffuse = luminance(l.diffuse) + (1.0f - s.metallic) * s.sheen * 0.1f;
+    float scale = 1.0f / max(specular + diffuse + l.coat_albedo, 1.0e-6f);
+    l.probability_specular = specular * scale;
+    l.probability_diffuse = diffuse * scale;
+    l.probability_coat = l.coat_albedo * scale;
+}
+
+SHADING_FN vec3 oren_nayar_albedo(SHADING_IN(Surface) s, vec3 wo) {
+    return s.sigma < 0.0f ? eon_albedo(s.base_color, s.roughness, wo.z) : s.base_color;
+}
+
+SHADING_FN BsdfLobes bsdf_prepare(SHADING_IN(Surface) s, vec3 wo) {
     BsdfLobes l;
     l.split = vec2(0.0f);
     l.albedo = 0.0f;
@@ -218,8 +318,24 @@ SHADING_FN BsdfLobes bsdf_prepare(Surface s, vec3 wo) {
     l.probability_glass = 0.0f;
     l.probability_coat = 0.0f;
     l.probability_through = 0.0f;
+    l.probability_sheen = 0.0f;
+    l.alphas = vec2(1.0f);
+    l.stretched = false;
+    l.metal_f0 = vec3(0.0f);
+    l.film_base = vec3(0.0f);
+    l.sheen_below = 1.0f;
     prepare_substances(s, l);
+    if (shading_extended && s.model == material_model_disney) {
+        prepare_disney(s, wo, l);
+    }
+    if (shading_extended && s.model == material_model_oren_nayar) {
+        l.diffuse = oren_nayar_albedo(s, wo);
+        l.probability_diffuse = 1.0f;
+    }
     if (s.model == material_model_standard) {
+        if (is_extended(s)) {
+            prepare_extended(s, wo, l);
+        }
         prepare_albedos(s, wo, l);
         prepare_probabilities(s, l);
     }

@@ -153,6 +153,8 @@ struct PathState {
     float eta_scale;  // the part of the throughput that is radiance's 1/eta² across boundaries
     vec3 scatter_normal;  // at scatter_origin, as kernel_sample_emitters took it
     float padding;
+    vec3 absorption;  // of the solid that the path is in, 1/m
+    float padding1;
 };
 
 SHADING_END

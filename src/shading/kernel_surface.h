@@ -149,6 +149,24 @@ SHADING_FN KernelPoint kernel_point(SHADING_IN(KernelHit) hit) {
     return point;
 }
 
+/// The material there, its tangent in the world. `inside`: see Surface.
+SHADING_FN MaterialPoint kernel_material(SHADING_IN(KernelHit) hit, SHADING_IN(KernelPoint) point, SHADING_IN(MaterialData) material,
+                                         bool inside) {
+    MaterialPoint at = material_at(material, point.texcoord0, point.texcoord1, point.color, inside);
+    if (is_extended(at.surface) && at.surface.anisotropy > 0.0f) {
+        vec4 tangent = point.tangent;
+        if (dot(vec3(tangent), vec3(tangent)) == 0.0f) {
+            vec3 dp_dv;
+            vec3 dp_du;
+            kernel_derivatives(hit, 0u, dp_du, dp_dv);
+            // v runs down: the bitangent up.
+            tangent = vec4(dp_du, dot(cross(point.normal, dp_du), dp_dv) > 0.0f ? -1.0f : 1.0f);
+        }
+        orient_tangent(point.normal, tangent, at.surface);
+    }
+    return at;
+}
+
 /// The interpolated normal after the material's normal and bump maps.
 SHADING_FN vec3 kernel_mapped_normal(SHADING_IN(KernelHit) hit, SHADING_IN(KernelPoint) point, SHADING_IN(MaterialData) material) {
     const bool bump = material.bump_texture.texture_index != no_texture;

@@ -3,6 +3,7 @@
 #ifndef HELIODON_SHADING_MATERIAL_EVAL_H
 #define HELIODON_SHADING_MATERIAL_EVAL_H
 #include "shading/bsdf.h"
+#include "shading/pane.h"
 SHADING_BEGIN
 
 /// Everything of a material at one point but its normal.
@@ -24,6 +25,11 @@ struct MaterialTexels {
     vec3 specular_color;
     float clearcoat;
     float clearcoat_roughness;
+    vec3 anisotropy;  // extended, as all that follow: direction in 0…1, strength
+    vec3 sheen_color;
+    float sheen_roughness;
+    float iridescence;
+    float film_thickness;
 };
 
 SHADING_FN MaterialTexels material_texels_default() {
@@ -37,6 +43,11 @@ SHADING_FN MaterialTexels material_texels_default() {
     t.specular_color = vec3(1.0f);
     t.clearcoat = 1.0f;
     t.clearcoat_roughness = 1.0f;
+    t.anisotropy = vec3(1.0f, 0.5f, 1.0f);
+    t.sheen_color = vec3(1.0f);
+    t.sheen_roughness = 1.0f;
+    t.iridescence = 1.0f;
+    t.film_thickness = 1.0f;
     return t;
 }
 
@@ -49,17 +60,37 @@ SHADING_FN float material_opacity(MaterialData m, float alpha) {
     return (m.flags & material_flag_alpha_blend) != 0u ? clamp(opacity, 0.0f, 1.0f) : 1.0f;
 }
 
-/// Share of the light that a thin pane lets pass straight on, by the cosine of incidence on either side.
-SHADING_FN float thin_transmittance(SHADING_IN(MaterialData) m, float cosine) {
-    float c = min(abs(cosine), 1.0f);
-    vec4 low = m.transmittance;
-    vec2 high = m.transmittance_high;
-    return clamp(low.x + c * (low.y + c * (low.z + c * (low.w + c * (high.x + c * high.y)))), 0.0f, 1.0f);
+/// What extended materials add, as their glTF extensions say. Surface::tangent is in the tangent's own frame yet
+/// (orient_tangent).
+SHADING_FN void combine_extended(SHADING_IN(MaterialData) m, SHADING_IN(MaterialTexels) t, SHADING_INOUT(Surface) s) {
+    s.thin_walled = (m.flags & material_flag_thin_walled) != 0u;
+    s.conductor = m.model == material_model_conductor;
+    s.anisotropy = clamp(m.anisotropy * t.anisotropy.z, 0.0f, 1.0f);
+    // The texture's direction, turned by the material's angle.
+    vec2 direction = vec2(t.anisotropy.x, t.anisotropy.y) * 2.0f - vec2(1.0f);
+    s.tangent = vec3(direction.x * m.anisotropy_axis.x - direction.y * m.anisotropy_axis.y,
+                     direction.x * m.anisotropy_axis.y + direction.y * m.anisotropy_axis.x, 0.0f);
+    s.sheen_color = m.sheen_color * t.sheen_color;
+    s.sheen_roughness = m.sheen_roughness * t.sheen_roughness;
+    s.film_ior = m.film_ior;
+    s.film_thickness_nm = mix(m.film_thinnest_nm, m.film_thickness_nm, t.film_thickness);
+    s.iridescence = s.film_thickness_nm > 0.0f ? clamp(m.iridescence * t.iridescence, 0.0f, 1.0f) : 0.0f;
+    s.eta = m.conductor_eta;
+    s.k = m.conductor_k;
+    s.conductor_average = m.conductor_average;
+    s.subsurface = m.subsurface;
+    s.specular_tint = m.specular_tint;
+    s.sheen = m.sheen;
+    s.sheen_tint = m.sheen_tint;
+    s.clearcoat_gloss = m.clearcoat_gloss;
+    s.sigma = m.sigma;
+    s.absorption = s.thin_walled ? vec3(0.0f) : m.absorption;
 }
 
 /// glTF 2.0's products of factor, texel and vertex colour. `inside`: see Surface.
-SHADING_FN MaterialPoint material_combine(MaterialData m, MaterialTexels t, vec4 vertex_color, bool inside) {
+SHADING_FN MaterialPoint material_combine(SHADING_IN(MaterialData) m, SHADING_IN(MaterialTexels) t, vec4 vertex_color, bool inside) {
     MaterialPoint p;
+    p.surface = surface_default();
     p.surface.base_color = m.base_color * vec3(t.base_color) * vec3(vertex_color);
     p.surface.metallic = clamp(m.metallic * t.orm.z, 0.0f, 1.0f);
     p.surface.specular_color = m.specular_color * t.specular_color;
@@ -69,8 +100,16 @@ SHADING_FN MaterialPoint material_combine(MaterialData m, MaterialTexels t, vec4
     p.surface.transmission = clamp(m.transmission * t.transmission, 0.0f, 1.0f);
     p.surface.clearcoat = clamp(m.clearcoat * t.clearcoat, 0.0f, 1.0f);
     p.surface.clearcoat_roughness = clamp(m.clearcoat_roughness * t.clearcoat_roughness, 0.0f, 1.0f);
-    p.surface.model = m.model == material_model_thin ? material_model_standard : m.model;  // what a pane reflects is a mirror's
-    p.surface.inside = inside && m.model == material_model_standard && p.surface.transmission > 0.0f;
+    // Those of one substance are the standard model's; what a pane reflects is a mirror's.
+    bool standard = m.model == material_model_thin || m.model == material_model_conductor || m.model == material_model_dielectric;
+    p.surface.model = standard ? material_model_standard : m.model;
+    bool solid = m.model == material_model_standard || m.model == material_model_dielectric;
+    p.surface.inside = inside && solid && p.surface.transmission > 0.0f;
+    p.surface.extended = (m.flags & material_flag_extended) != 0u;
+    if (is_extended(p.surface)) {
+        combine_extended(m, t, p.surface);
+        p.surface.inside = p.surface.inside && !p.surface.thin_walled;
+    }
     p.emission = m.emission_nits * t.emission;
     if (m.model == material_model_unlit) {
         p.emission = p.emission * p.surface.base_color;
@@ -112,6 +151,32 @@ SHADING_FN vec3 perturb_normal_map(vec3 n, vec4 tangent, vec3 texel, float norma
     vec3 result = t * (m.x * normal_scale) + b * (m.y * normal_scale) + n * m.z;
     float length2 = dot(result, result);
     return length2 < 1.0e-12f ? n : result * inversesqrt(length2);
+}
+
+/// Turns Surface::tangent from the frame of the mesh's `tangent` (world, w its handedness) to the world; `n` is on the
+/// front side. Where there is no tangent, any direction has to do.
+SHADING_FN void orient_tangent(vec3 n, vec4 tangent, SHADING_INOUT(Surface) s) {
+    vec3 t = vec3(tangent) - n * dot(n, vec3(tangent));
+    float squared = dot(t, t);
+    if (squared < 1.0e-12f) {
+        s.tangent = vec3(0.0f);
+        return;
+    }
+    t = t * inversesqrt(squared);
+    s.tangent = t * s.tangent.x + cross(n, t) * (tangent.w * s.tangent.y);
+}
+/// The local frame of a surface about the shading normal `n`.
+SHADING_FN Frame surface_frame(SHADING_IN(Surface) s, vec3 n) {
+    Frame frame = frame_from_normal(n);
+    if (is_extended(s)) {
+        vec3 t = s.tangent - n * dot(n, s.tangent);
+        float squared = dot(t, t);
+        if (squared > 1.0e-12f) {
+            frame.tangent = t * inversesqrt(squared);
+            frame.bitangent = cross(n, frame.tangent);
+        }
+    }
+    return frame;
 }
 
 /// A height field over the surface: Blinn 1978 in the surface-gradient form of Mikkelsen 2010, eq. 3 and 4.

@@ -39,6 +39,15 @@ SHADING_FN MaterialPoint material_at(SHADING_IN(MaterialData) m, vec2 uv0, vec2 
     t.specular_color = vec3(fetch_or_one(m.specular_color_texture, uv0, uv1));
     t.clearcoat = fetch_or_one(m.clearcoat_texture, uv0, uv1).x;
     t.clearcoat_roughness = fetch_or_one(m.clearcoat_roughness_texture, uv0, uv1).y;
+    if (shading_extended && (m.flags & material_flag_extended) != 0u) {
+        if (m.anisotropy_texture.texture_index != no_texture) {
+            t.anisotropy = vec3(fetch_or_one(m.anisotropy_texture, uv0, uv1));
+        }
+        t.sheen_color = vec3(fetch_or_one(m.sheen_color_texture, uv0, uv1));
+        t.sheen_roughness = fetch_or_one(m.sheen_roughness_texture, uv0, uv1).w;
+        t.iridescence = fetch_or_one(m.iridescence_texture, uv0, uv1).x;
+        t.film_thickness = fetch_or_one(m.film_thickness_texture, uv0, uv1).y;
+    }
     return material_combine(m, t, vertex_color, inside);
 }
 

@@ -66,6 +66,8 @@ SHADING_FN PathState path_begin_along(uint stream, uint sample_index, vec3 origi
     path.eta_scale = 1.0f;
     path.scatter_normal = vec3(0.0f);
     path.padding = 0.0f;
+    path.absorption = vec3(0.0f);
+    path.padding1 = 0.0f;
     return path;
 }
 
@@ -132,6 +134,9 @@ SHADING_FN void kernel_add_visible_lights(SHADING_INOUT(PathState) path, float d
 
 // -- scattering
 
+/// What a solid leaves of light after `distance` metres: Beer & Lambert.
+SHADING_FN vec3 kernel_solid_transmittance(vec3 absorption, float distance) { return exp(absorption * -distance); }
+
 /// Where light sampling may look for light: on the shading normal's side, unless light also passes the surface.
 SHADING_FN vec3 kernel_light_side(SHADING_IN(Surface) surface, vec3 normal) {
     return surface.transmission > 0.0f ? vec3(0.0f) : normal;
@@ -173,7 +178,11 @@ SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 positio
     if (light.pdf > 0.0f) {
         weight = power_heuristic(light.pdf, bsdf_pdf_prepared(surface, lobes, wo, wi));
     }
-    kernel_aim_shadow(path, position, error, geometric, light, path.throughput * value * light.light * weight);
+    vec3 arriving = path.throughput * value * light.light * weight;
+    if (is_extended(surface) && surface.inside != (wi.z < 0.0f)) {  // a light within the solid
+        arriving = arriving * kernel_solid_transmittance(surface.absorption, light.distance);
+    }
+    kernel_aim_shadow(path, position, error, geometric, light, arriving);
 }
 
 /// One scattering event: a light sample, whose shadow ray comes first, and a scattered ray. `geometric` is
@@ -183,7 +192,7 @@ SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec
     const uint event = path.depth;
     path.depth += 1u;
     const bool last = kernel_frame().max_depth != 0u && path.depth >= kernel_frame().max_depth;
-    const Frame frame = frame_from_normal(normal);
+    const Frame frame = surface_frame(surface, normal);
     const vec3 wo = to_local(frame, wo_world);
     path.stage = kernel_stage_done;
     path.after_shadow = kernel_stage_done;
@@ -221,6 +230,9 @@ SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec
     }
     // The shadow ray still carries the light of the event itself in shadow_light.
     path.throughput = throughput;
+    if (is_extended(surface) && (surface.inside || scattered.transmitted)) {
+        path.absorption = surface.inside != scattered.transmitted ? surface.absorption : vec3(0.0f);
+    }
     path.eta_scale = eta_scale;
     path.scatter_pdf = scattered.pdf;
     path.scatter_origin = position;
@@ -316,7 +328,10 @@ SHADING_FN void kernel_take_surface_hit(SHADING_INOUT(PathState) path, SHADING_I
     const bool front = dot(path.direction, point.geometric_normal) < 0.0f;
     const bool two_sided = (material.flags & material_flag_two_sided) != 0u;
     const bool inside = !front && !two_sided;
-    const MaterialPoint at = material_at(material, point.texcoord0, point.texcoord1, point.color, inside);
+    const MaterialPoint at = kernel_material(hit, point, material, inside);
+    if (is_extended(at.surface) && at.surface.inside && path.depth == 0u) {  // the camera is in the solid
+        path.throughput = path.throughput * kernel_solid_transmittance(at.surface.absorption, hit.t);
+    }
     if (!inside && max_component(at.emission) > 0.0f) {
         kernel_add_met(path, at.emission, path.scatter_pdf > 0.0f ? kernel_hit_pdf(point, path.scatter_origin, path.scatter_normal) : 0.0f);
     }
@@ -336,6 +351,10 @@ SHADING_FN void path_take_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHi
     if (path.stage == kernel_stage_shadow) {
         kernel_take_shadow_hit(path, hit);
         return;
+    }
+    if (max_component(path.absorption) > 0.0f) {
+        path.throughput = path.throughput *
+                          kernel_solid_transmittance(path.absorption, hit.kind == kernel_hit_surface ? hit.t : kernel_infinity);
     }
     if (hit.kind == kernel_hit_surface) {
         kernel_add_visible_lights(path, hit.t);

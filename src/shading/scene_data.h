@@ -19,10 +19,16 @@ SHADING_CONST uint material_model_standard = 0u;
 SHADING_CONST uint material_model_lambert = 1u;
 SHADING_CONST uint material_model_unlit = 2u;
 SHADING_CONST uint material_model_thin = 3u;  // a pane: what it does not mirror passes straight on
+SHADING_CONST uint material_model_disney = 4u;
+SHADING_CONST uint material_model_oren_nayar = 5u;
+SHADING_CONST uint material_model_conductor = 6u;   // the standard model's metal with eta and k
+SHADING_CONST uint material_model_dielectric = 7u;  // the standard model's clear glass
 SHADING_CONST uint material_flag_two_sided = 1u;
 SHADING_CONST uint material_flag_alpha_mask = 2u;
 SHADING_CONST uint material_flag_alpha_blend = 4u;
 SHADING_CONST uint material_flag_emissive = 8u;
+SHADING_CONST uint material_flag_extended = 16u;     // it needs what SHADING's extended models have (surface.h)
+SHADING_CONST uint material_flag_thin_walled = 32u;  // transmission passes a sheet
 
 struct MaterialData {
     vec3 base_color;
@@ -57,7 +63,30 @@ struct MaterialData {
     vec4 transmittance;       // thin: coefficients of the cosine of incidence, 0th to 3rd power
     vec2 transmittance_high;  // 4th and 5th power
     float reflectance;        // thin: share that is mirrored, at any incidence
-    float padding_thin;
+    // Extended, from here on.
+    float anisotropy;  // disney: anisotropic
+    vec3 sheen_color;
+    float sheen_roughness;
+    vec3 conductor_eta;
+    float iridescence;
+    vec3 conductor_k;
+    float film_ior;
+    vec3 conductor_average;   // cosine-weighted average of its reflectance
+    float film_thickness_nm;  // where the texture is 1
+    vec3 absorption;          // of a solid, 1/m
+    float film_thinnest_nm;   // where the texture is 0
+    vec2 anisotropy_axis;     // cosine and sine of its angle from the tangent, towards the bitangent
+    float subsurface;         // disney
+    float specular_tint;
+    float sheen;
+    float sheen_tint;
+    float clearcoat_gloss;
+    float sigma;  // oren_nayar: radians; negative: by roughness
+    TextureRef anisotropy_texture;
+    TextureRef sheen_color_texture;
+    TextureRef sheen_roughness_texture;
+    TextureRef iridescence_texture;
+    TextureRef film_thickness_texture;
 };
 
 SHADING_CONST uint light_type_point = 0u;

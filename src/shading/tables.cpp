@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "shading/extended_tables.h"
 #include "shading/fresnel.h"
 #include "shading/ggx_albedo.h"
 #include "shading/quadrature.h"
@@ -175,11 +176,6 @@ float glass_average(std::span<const float> row, double alpha) {
     return static_cast<float>(sum);
 }
 
-float alpha_of_row(std::size_t row, std::size_t rows) {
-    const double smallest = std::sqrt(static_cast<double>(ggx_smallest_alpha));
-    const double root = smallest + (1.0 - smallest) * row / (rows - 1);
-    return static_cast<float>(root * root);
-}
 /// Stands for the limit at grazing incidence.
 constexpr double smallest_mu = 1e-6;
 
@@ -248,6 +244,7 @@ std::vector<float> compute_tables() {
     fill_reflection(table, rules);
     fill_glass(table, rules);
     fill_specular_lobes(table, rules);
+    fill_extended_tables(table);
     return table;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "quadrature_points.h"
+#include "extended_surfaces.h"
 #include "shading/bsdf.h"
 #include "shading/random.h"
 
@@ -199,6 +199,7 @@ std::vector<SamplerCase> sampler_cases() {
     cases[7].surface.clearcoat = 1;
     cases[7].surface.clearcoat_roughness = 0.5f;
     cases[8].surface.model = material_model_lambert;
+    for (const tests::NamedSurface& extended : tests::extended_surfaces()) cases.push_back({extended.name, extended.surface});
     return cases;
 }
 

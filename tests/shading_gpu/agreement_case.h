@@ -10,7 +10,7 @@
 #include "shading/tone.h"
 SHADING_BEGIN
 
-SHADING_CONST uint agreement_values = 23u;  // vec4 a case
+SHADING_CONST uint agreement_values = 26u;  // vec4 a case
 
 SHADING_FN Surface agreement_surface(uint i) {
     vec4 a = random4(i, 0u, 0u, 1u);
@@ -28,6 +28,35 @@ SHADING_FN Surface agreement_surface(uint i) {
     s.clearcoat_roughness = 0.3f;
     s.model = i % 11u == 0u ? material_model_lambert : material_model_standard;
     s.inside = i % 4u == 0u;
+    return s;
+}
+/// Of what a pipeline has only where shading_extended says so.
+SHADING_FN Surface agreement_extended_surface(uint i) {
+    vec4 a = random4(i, 2u, 0u, 1u);
+    vec4 b = random4(i, 2u, 1u, 1u);
+    vec4 c = random4(i, 2u, 2u, 1u);
+    Surface s = agreement_surface(i);
+    uint kind = i % 8u;
+    s.extended = true;
+    s.model = kind == 0u ? material_model_disney : (kind == 1u ? material_model_oren_nayar : material_model_standard);
+    s.roughness = 0.3f + 0.7f * b.w;
+    s.clearcoat_gloss = 0.2f * c.w;
+    s.subsurface = a.x;
+    s.specular_tint = a.y;
+    s.sheen = a.z;
+    s.sigma = a.w < 0.5f ? -1.0f : a.w;
+    s.anisotropy = kind == 2u || kind == 0u ? a.x : 0.0f;
+    s.sheen_color = kind == 3u ? vec3(a) : vec3(0.0f);
+    s.sheen_roughness = 0.2f + 0.8f * a.w;
+    s.iridescence = kind == 4u ? a.x : 0.0f;
+    s.film_ior = 1.1f + a.y;
+    s.film_thickness_nm = 800.0f * a.z;
+    s.conductor = kind == 5u;
+    s.eta = vec3(b) + vec3(0.1f);
+    s.k = vec3(c) * 4.0f;
+    s.conductor_average = vec3(0.5f);
+    s.thin_walled = kind == 6u;
+    s.inside = s.inside && !s.thin_walled && s.model == material_model_standard && s.transmission > 0.0f;
     return s;
 }
 SHADING_FN vec3 agreement_direction(vec2 u) {
@@ -177,6 +206,14 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
         LightData light = agreement_luminaire(i);
         OpeningPoint point = opening_surface_point(light.opening, light.half_extent, light.face_weights, vec2(v));
         return vec4(point.position + point.weighted_normal, opening_projected_area(light.opening, light.half_extent, wi));
+    }
+    if (k == 23u) {
+        Surface extended = agreement_extended_surface(i);
+        return vec4(bsdf_evaluate(extended, wo, wi), bsdf_pdf(extended, wo, wi));
+    }
+    if (k == 24u || k == 25u) {
+        BsdfSample sampled = bsdf_sample(agreement_extended_surface(i), wo, vec3(v));
+        return k == 24u ? vec4(sampled.direction, sampled.eta_scale) : vec4(sampled.weight, sampled.pdf);
     }
     return v;
 }

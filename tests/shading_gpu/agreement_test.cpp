@@ -24,7 +24,7 @@ Result<std::vector<vec4>> values_from_the_device() {
     gpu::ShaderLibrary library(tests::embedded_shaders());
     auto shader = library.find("shading_gpu/agreement.comp");
     if (!shader) return tl::unexpected(shader.error());
-    auto pipeline = gpu::ComputePipeline::create(**device, *shader);
+    auto pipeline = gpu::ComputePipeline::create(**device, *shader, {{9, 1}});  // shading_extended
     if (!pipeline) return tl::unexpected(pipeline.error());
 
     const std::span<const float> tables = shading_tables();

@@ -20,8 +20,14 @@ struct SceneInputs {
     std::uint32_t instance_count = 0;
     bool has_tested = false;   ///< something visible is alpha-masked
     bool has_blended = false;  ///< something visible is alpha-blended
+    bool has_extended = false;  ///< some material is more than the standard model's core; pipelines are chosen by it
     std::uint32_t draw_calls = 0;  ///< indirect draws recorded; the passes count
 };
+
+/// Constant 9 of every shader that evaluates materials (shading/surface.h).
+inline void set_material_constants(gpu::Specialization& constants, const SceneInputs& scene) {
+    constants[9] = scene.has_extended ? 1u : 0u;
+}
 
 using NumberedBinding = std::pair<std::uint32_t, gpu::Binding>;
 

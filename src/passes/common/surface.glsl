@@ -102,24 +102,41 @@ vec3 interpolated_normal(InstanceData instance, GeometryData geometry, TriangleH
     return squared > 0.0f ? world * inversesqrt(squared) : geometric;
 }
 
+/// World, w = handedness; 0 where the mesh has none.
+vec4 interpolated_tangent(InstanceData instance, GeometryData geometry, TriangleHit hit) {
+    if (geometry.tangent_offset == no_attribute) return vec4(0.0f);
+    const vec4 t0 = fetch_tangent(geometry, hit.index.x);
+    const vec3 t = t0.xyz * hit.barycentric.x + fetch_tangent(geometry, hit.index.y).xyz * hit.barycentric.y +
+                   fetch_tangent(geometry, hit.index.z).xyz * hit.barycentric.z;
+    return vec4(mat3(instance.object_to_world) * t, t0.w * instance.determinant_sign);
+}
+
+bool texture_derivatives(GeometryData geometry, uint set_index, TriangleHit hit, out vec3 dp_du, out vec3 dp_dv) {
+    return triangle_derivatives(hit.p0, hit.p0 + hit.edge1, hit.p0 + hit.edge2, fetch_texcoord(geometry, set_index, hit.index.x),
+                                fetch_texcoord(geometry, set_index, hit.index.y), fetch_texcoord(geometry, set_index, hit.index.z),
+                                dp_du, dp_dv);
+}
+
 vec3 mapped_normal(InstanceData instance, GeometryData geometry, MaterialData m, TriangleHit hit, vec2 uv0, vec2 uv1, vec3 n) {
     if (m.normal_texture.texture_index == no_texture && m.bump_texture.texture_index == no_texture) return n;
-    vec4 tangent = vec4(0.0f);
-    if (geometry.tangent_offset != no_attribute) {
-        const vec4 t0 = fetch_tangent(geometry, hit.index.x);
-        const vec3 t = t0.xyz * hit.barycentric.x + fetch_tangent(geometry, hit.index.y).xyz * hit.barycentric.y +
-                       fetch_tangent(geometry, hit.index.z).xyz * hit.barycentric.z;
-        tangent = vec4(mat3(instance.object_to_world) * t, t0.w * instance.determinant_sign);
-    }
+    const vec4 tangent = interpolated_tangent(instance, geometry, hit);
     vec3 dp_du = vec3(0.0f);
     vec3 dp_dv = vec3(0.0f);
-    if (m.bump_texture.texture_index != no_texture) {
-        const uint set_index = m.bump_texture.texcoord;
-        triangle_derivatives(hit.p0, hit.p0 + hit.edge1, hit.p0 + hit.edge2, fetch_texcoord(geometry, set_index, hit.index.x),
-                             fetch_texcoord(geometry, set_index, hit.index.y), fetch_texcoord(geometry, set_index, hit.index.z),
-                             dp_du, dp_dv);
-    }
+    if (m.bump_texture.texture_index != no_texture) texture_derivatives(geometry, m.bump_texture.texcoord, hit, dp_du, dp_dv);
     return material_normal_at(m, uv0, uv1, n, tangent, dp_du, dp_dv);
+}
+
+/// The world tangent of a surface that is not alike in all directions: the mesh's, or along the first coordinate set's u.
+void orient_surface(InstanceData instance, GeometryData geometry, TriangleHit hit, vec3 normal, inout Surface surface) {
+    if (!is_extended(surface) || surface.anisotropy <= 0.0f) return;
+    vec4 tangent = interpolated_tangent(instance, geometry, hit);
+    if (tangent.xyz == vec3(0.0f)) {
+        vec3 dp_du;
+        vec3 dp_dv;
+        texture_derivatives(geometry, 0u, hit, dp_du, dp_dv);
+        tangent = vec4(dp_du, dot(cross(normal, dp_du), dp_dv) > 0.0f ? -1.0f : 1.0f);  // v runs down: the bitangent up
+    }
+    orient_tangent(normal, tangent, surface);
 }
 
 vec4 vertex_color_at(GeometryData geometry, TriangleHit hit) {
@@ -150,7 +167,8 @@ SurfacePoint resolve_surface(uint instance_index, uint primitive, FrameData fram
     point.material = material_at(material, uv0, uv1, vertex_color_at(geometry, hit), inside);
     const vec3 smooth_normal = interpolated_normal(instance, geometry, hit, outward);
     const vec3 normal = mapped_normal(instance, geometry, material, hit, uv0, uv1, smooth_normal);
-    point.frame = frame_from_normal(usable_shading_normal(back ? -normal : normal, point.geometric, point.wo));
+    orient_surface(instance, geometry, hit, smooth_normal, point.material.surface);
+    point.frame = surface_frame(point.material.surface, usable_shading_normal(back ? -normal : normal, point.geometric, point.wo));
     point.dark = inside && !point.material.surface.inside;
     if (inside) point.material.emission = vec3(0.0f);
     return point;

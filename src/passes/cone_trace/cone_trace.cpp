@@ -27,6 +27,7 @@ struct ConeTrace {
         gpu::Specialization result = cone_constants(volume);
         result[0] = options.aov ? 1 : 0;
         result[spacing_constant] = options.spacing;
+        set_material_constants(result, scene);
         return result;
     }
     void read_surfaces(graph::PassBuilder& pass) const {

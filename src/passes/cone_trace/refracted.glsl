@@ -91,6 +91,12 @@ Refracted refracted(SurfacePoint point, vec3 wo, BsdfLobes lobes, float diagonal
     result.tint = vec3(1.0f);
     result.origin = cone_origin(point.position, -point.geometric);
     result.middle = result.origin;
+    if (passes_sheet(point.material.surface)) {  // as the reflection, on the other side
+        result.cone = specular_cone(wo, lobes.alpha);
+        result.cone.direction.z = -result.cone.direction.z;
+        result.cone.direction = to_world(point.frame, result.cone.direction);
+        return result;
+    }
     if (!refraction_cone(wo, lobes.alpha, lobes.eta, result.cone)) return result;  // weight 0
     result.cone.direction = to_world(point.frame, result.cone.direction);
     if (diagonal_m == 0.0f || lobes.eta <= 1.0f) return result;
@@ -98,8 +104,11 @@ Refracted refracted(SurfacePoint point, vec3 wo, BsdfLobes lobes, float diagonal
     const vec3 start = to_lattice(point.position);
     vec3 normal = -point.frame.normal;
     const float cover = voxel_cover(point.material.surface);
-    if (solid_exit(start, result.cone.direction, diagonal_m / volume.voxel_m, cover, result.origin, normal))
+    if (solid_exit(start, result.cone.direction, diagonal_m / volume.voxel_m, cover, result.origin, normal)) {
         result.middle = 0.5f * (start + result.origin);
+        if (is_extended(point.material.surface))  // Beer & Lambert
+            result.tint *= exp(-point.material.surface.absorption * (distance(start, result.origin) * volume.voxel_m));
+    }
     leave(frame_from_normal(-normal), lobes, result.cone, result);
     return result;
 }

@@ -45,7 +45,7 @@ bool varies(GeometryData geometry, MaterialData m) {
     const uint textures_used = m.base_color_texture.texture_index & m.orm_texture.texture_index & m.emission_texture.texture_index &
                                m.transmission_texture.texture_index & m.specular_texture.texture_index &
                                m.specular_color_texture.texture_index & m.clearcoat_texture.texture_index &
-                               m.clearcoat_roughness_texture.texture_index;
+                               m.clearcoat_roughness_texture.texture_index & m.sheen_color_texture.texture_index;
     return textures_used != no_texture || geometry.color_offset != no_attribute;
 }
 

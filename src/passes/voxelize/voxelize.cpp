@@ -71,7 +71,9 @@ glm::uvec3 groups_over(Voxelization::Step::Over over, const VoxelizeConstants& p
 }
 
 Result<void> Voxelization::add(const Step& step, const std::function<void(PassBuilder&)>& setup) const {
-    auto pipeline = pipelines.compute(step.shader, step.constants);
+    gpu::Specialization constants = step.constants;
+    set_material_constants(constants, scene);
+    auto pipeline = pipelines.compute(step.shader, constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         step.name, PassKind::compute,
