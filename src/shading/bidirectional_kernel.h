@@ -261,12 +261,13 @@ SHADING_FN BidirectionalState bidirectional_begin(uint x, uint y, uint sample_in
     state.weights.last = 0.0f;
     state.weights.before = 0.0f;
     state.walk = path_begin(x, y, sample_index);
-    state.walk.pixel_seed = kernel_hash_combine(state.walk.pixel_seed, 0x6c696768u);  // a stream of its own
+    state.walk.pixel_seed = kernel_hash_combine(state.walk.pixel_seed, 1u);  // a stream of its own
     if (emission_count() == 0u) {
         bidirectional_begin_camera(state);
         return state;
     }
-    state.emitted = kernel_sample_emission(state.walk);
+    state.emitted = kernel_sample_emission(bidirectional_random_pair(state, 0u, 1u), bidirectional_random_pair(state, 0u, 2u),
+                                           bidirectional_random_pair(state, 0u, 3u));
     state.walk.origin = state.emitted.origin;
     state.walk.scatter_origin = state.emitted.origin;
     state.walk.direction = state.emitted.direction;

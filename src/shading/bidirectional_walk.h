@@ -15,6 +15,22 @@ SHADING_FN float bidirectional_weight(uint light_vertices, uint camera_vertices,
 
 SHADING_FN bool bidirectional_too_deep(uint events) { return kernel_frame().max_depth != 0u && events > kernel_frame().max_depth; }
 
+/// Numbers of the subpath under way, as path_random_pair has them. The camera's are its pixel's own sequence. Light
+/// subpaths of all pixels reach all pixels: theirs are one sequence over the samples, moved in each pixel by a digital
+/// shift taken from a second one over the pixels. Exclusive or keeps a net a net: a pixel's subpaths fill the square
+/// evenly, and so do those of one sample of the whole picture.
+SHADING_FN vec2 bidirectional_random_pair(SHADING_IN(BidirectionalState) state, uint event, uint pair) {
+    if (state.phase == bidirectional_phase_camera) {
+        return path_random_pair(state.walk, event, pair);
+    }
+    const uint stream = state.sample_index % kernel_frame().sample_streams;
+    const uint seed = kernel_hash_combine(kernel_hash(kernel_frame().seed), 0x6c696768u + stream) + (4u * event + pair) * 0x9e3779b9u;
+    const vec2 of_sample = kernel_sample_pair(state.walk.sample_reversed, seed);
+    const vec2 of_pixel = kernel_sample_pair(kernel_reverse_bits(state.pixel), kernel_hash(seed));
+    const float steps = 16777216.0f;  // of kernel_unit_float
+    return vec2(float(uint(of_sample.x * steps) ^ uint(of_pixel.x * steps)), float(uint(of_sample.y * steps) ^ uint(of_pixel.y * steps))) / steps;
+}
+
 // -- the camera
 
 /// Density per steradian of a pixel's rays at `cosine` to the camera's axis: even over the picture's plane.
@@ -74,8 +90,8 @@ SHADING_FN void bidirectional_scatter(SHADING_INOUT(BidirectionalState) state) {
     if (bidirectional_too_deep(events + 1u) && (!from_camera || kernel_frame().scattered_emission == 0u)) {
         return;
     }
-    const vec2 u = path_random_pair(state.walk, event, 3u);
-    const float u_lobe = path_random_pair(state.walk, event, 1u).y;
+    const vec2 u = bidirectional_random_pair(state, event, 3u);
+    const float u_lobe = bidirectional_random_pair(state, event, 1u).y;
     const Frame frame = frame_from_normal(state.vertex.shading_normal);
     const vec3 toward = state.vertex.toward;
     const BsdfSample scattered = bsdf_sample_prepared(state.vertex.surface, state.vertex.lobes, to_local(frame, toward), vec3(u, u_lobe));
@@ -102,7 +118,7 @@ SHADING_FN void bidirectional_scatter(SHADING_INOUT(BidirectionalState) state) {
     }
     if (events >= 4u) {  // as in kernel_scatter
         const float survival = min(max_component(throughput) / state.walk.eta_scale, 0.98f);
-        if (path_random_pair(state.walk, event + 1u, 0u).x >= survival) {
+        if (bidirectional_random_pair(state, event + 1u, 0u).x >= survival) {
             return;
         }
         throughput = throughput / survival;

@@ -167,11 +167,8 @@ SHADING_FN void kernel_emit_from_surface(SHADING_INOUT(EmittedLight) emitted, SH
     emitted.light = kernel_emission(hit);
 }
 
-/// Light that sets out; `light` is 0 where none does. Draws the random numbers of event 0.
-SHADING_FN EmittedLight kernel_sample_emission(SHADING_IN(PathState) path) {
-    const vec2 u_select = path_random_pair(path, 0u, 1u);
-    const vec2 u_position = path_random_pair(path, 0u, 2u);
-    const vec2 u_direction = path_random_pair(path, 0u, 3u);
+/// Light that sets out; `light` is 0 where none does.
+SHADING_FN EmittedLight kernel_sample_emission(vec2 u_select, vec2 u_position, vec2 u_direction) {
     EmittedLight emitted;
     emitted.emitter = kernel_select_emission(u_select.x);
     emitted.origin = vec3(0.0f);
