@@ -76,8 +76,12 @@ public:
     struct Receiver {
         glm::vec3 position, normal;
     };
-    [[nodiscard]] Result<std::vector<glm::vec3>> illuminances(const std::vector<Receiver>& receivers, bool environment,
-                                                              bool cone_traced);
+    struct Illuminance {
+        glm::vec3 lux{0};
+        double half_width_95 = 0;  ///< of its luminance: of the noise of shadows and of lights with an extent
+    };
+    [[nodiscard]] Result<std::vector<Illuminance>> illuminances(const std::vector<Receiver>& receivers, bool environment,
+                                                                bool cone_traced);
     /// Whether blended fragments found no room since the last call; if so, makes room, and the picture must
     /// be rendered again. Waits.
     [[nodiscard]] Result<bool> grow_fragments();

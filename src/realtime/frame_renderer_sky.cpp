@@ -1,4 +1,8 @@
 // The parts of FrameRenderer that run outside its frame graphs: the sky's prefiltered maps and sensors.
+#include <array>
+#include <cmath>
+
+#include "core/units.h"
 #include "gpu/bindless_textures.h"
 #include "passes/environment/environment.h"
 #include "passes/sensors/sensors.h"
@@ -9,7 +13,25 @@
 namespace heliodon::realtime {
 namespace {
 
-constexpr std::uint32_t points_of_area_light = 256;  // of a light with an extent, for a sensor's mean
+// Samples of a sensor: points of lights with an extent, or what panes and veils let through; else moved shadow grids.
+constexpr std::uint32_t samples_of_chance = 256, samples_of_grids = 16;
+constexpr std::uint32_t spread_batches = 16;
+constexpr double student_95 = 2.1314495;  // two-sided 95 % quantile of Student's t, 15 degrees of freedom
+
+/// A sensor's readings, sample by sample.
+struct Spread {
+    std::array<double, spread_batches> batches{};
+    /// Adds a share of the mean that sample `index` of `count` brings.
+    void add(std::uint32_t index, std::uint32_t count, double share) { batches[index * spread_batches / count] += share; }
+    /// 95 % half-width of the mean, from that of the batches.
+    [[nodiscard]] double half_width_95() const {
+        double mean = 0, squares = 0;
+        for (const double batch : batches) mean += batch / spread_batches;
+        for (const double batch : batches) squares += (batch - mean) * (batch - mean);
+        // Each batch holds a sixteenth of the mean.
+        return student_95 * spread_batches * std::sqrt(squares / (spread_batches - 1.0) / spread_batches);
+    }
+};
 
 }  // namespace
 
@@ -67,9 +89,9 @@ Result<void> FrameRenderer::record_sensor_batch(const gpu::Buffer& sensors, std:
     return status ? done : status;
 }
 
-Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Receiver>& receivers, bool environment,
-                                                           bool cone_traced) {
-    std::vector<glm::vec3> result(receivers.size(), glm::vec3(0));
+Result<std::vector<FrameRenderer::Illuminance>> FrameRenderer::illuminances(const std::vector<Receiver>& receivers, bool environment,
+                                                                            bool cone_traced) {
+    std::vector<Illuminance> result(receivers.size());
     if (receivers.empty()) return result;
     if (wanted_.width == 0)
         if (auto done = resize(1, 1, false); !done) return tl::unexpected(done.error());
@@ -87,12 +109,13 @@ Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Rec
     if (!buffer) return tl::unexpected(buffer.error());
     if (auto done = device_.upload<shading::SensorData>(*buffer, sensors); !done) return tl::unexpected(done.error());
 
-    const std::uint32_t points = has_area_lights_ ? points_of_area_light : 1;
+    const std::uint32_t points = has_area_lights_ || gpu_scene_.has_blended() ? samples_of_chance : samples_of_grids;
+    std::vector<Spread> spreads(receivers.size());
     for (std::uint32_t point = 0; point < points; ++point) {
         FrameSample sample;
         sample.count = points;
         sample.index = sample.shadow_index = point;
-        sample.jitter_shadows = has_area_lights_;
+        sample.jitter_shadows = true;
         for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch) {
             const passes::SensorLights lights{plan_.batches[batch].first_light, plan_.batches[batch].light_count,
                                               environment && !cone_traced && batch == 0};
@@ -100,10 +123,14 @@ Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Rec
                 return tl::unexpected(done.error());
             auto read = device_.read_back_as<shading::SensorData>(*buffer);
             if (!read) return tl::unexpected(read.error());
-            for (std::size_t i = 0; i < result.size(); ++i)
-                result[i] += (*read)[i].illuminance / static_cast<float>(points);
+            for (std::size_t i = 0; i < result.size(); ++i) {
+                const glm::vec3 share = (*read)[i].illuminance / static_cast<float>(points);
+                result[i].lux += share;
+                spreads[i].add(point, points, units::luminance(glm::dvec3(share)));
+            }
         }
     }
+    for (std::size_t i = 0; i < result.size(); ++i) result[i].half_width_95 = spreads[i].half_width_95();
     if (!cone_traced) return result;
     if (auto done = device_.upload<shading::SensorData>(*buffer, sensors); !done) return tl::unexpected(done.error());
     Result<void> status;
@@ -115,7 +142,7 @@ Result<std::vector<glm::vec3>> FrameRenderer::illuminances(const std::vector<Rec
     if (!traced) return tl::unexpected(traced.error());
     auto indirect = device_.read_back_as<shading::SensorData>(*buffer);
     if (!indirect) return tl::unexpected(indirect.error());
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] += (*indirect)[i].illuminance;
+    for (std::size_t i = 0; i < result.size(); ++i) result[i].lux += (*indirect)[i].illuminance;
     return result;
 }
 

@@ -176,7 +176,7 @@ struct RealtimeRenderer::State {
         return {};
     }
 
-    Result<glm::vec3> luminance_along(glm::vec3 position, glm::vec3 direction, bool environment, bool cone_traced);
+    Result<SensorReading> luminance_along(const SensorPoint& point, bool environment, bool cone_traced);
 };
 
 RealtimeRenderer::RealtimeRenderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -275,27 +275,39 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
 
 std::vector<std::string> RealtimeRenderer::validation_messages() const { return state_->device->validation_messages(); }
 
-Result<glm::vec3> RealtimeRenderer::State::luminance_along(glm::vec3 position, glm::vec3 direction, bool environment, bool cone_traced) {
+Result<SensorReading> RealtimeRenderer::State::luminance_along(const SensorPoint& point, bool environment, bool cone_traced) {
     Camera camera;
-    camera.position = position;
-    camera.target = position + direction;
+    camera.position = point.origin();
+    camera.target = camera.position + point.direction;
     camera.vertical_fov_rad = 1e-3f;  // the middle of one pixel is the ray; its size only chooses texture levels
     if (auto done = frames->resize(1, 1, false); !done) return tl::unexpected(done.error());
     // Several shadow grids, one ray: the mean of still samples without their movement in the pixel.
     RealtimeOptions options;
     options.environment = environment;
-    glm::vec3 mean(0);
+    glm::dvec3 sum(0);
+    double squares = 0;
     for (int i = 0; i < shadow_grids; ++i) {
         FrameSample sample = still_sample(options, i, shadow_grids);
         sample.jitter = glm::vec2(0);
         sample.texture_gradient_scale = 1.0f;
         sample.cone_traced = cone_traced;
         if (auto done = frames->render(camera, sample); !done) return tl::unexpected(done.error());
+        auto so_far = frames->read_sum();
+        if (!so_far) return tl::unexpected(so_far.error());
+        const glm::dvec3 all((*so_far)[0], (*so_far)[1], (*so_far)[2]);
+        squares += std::pow(units::luminance(all - sum), 2);
+        sum = all;
     }
-    auto sum = frames->read_sum();
-    if (!sum) return tl::unexpected(sum.error());
-    for (int c = 0; c < 3; ++c) mean[c] = (*sum)[c] / static_cast<float>(shadow_grids);
-    return mean;
+    constexpr double student_95 = 2.1314495;  // two-sided 95 % quantile of Student's t, 15 degrees of freedom
+    const double value = units::luminance(sum) / shadow_grids;
+    // Single precision sums leave the variance of equal samples a little above or below 0.
+    const double variance = std::max(0.0, squares / shadow_grids - value * value);
+    const bool noisy = variance > 1e-12 * value * value;
+    SensorReading reading;
+    reading.rgb = sum / static_cast<double>(shadow_grids);
+    reading.value = value;
+    reading.half_width_95 = noisy ? student_95 * std::sqrt(variance / (shadow_grids - 1)) : 0;
+    return reading;
 }
 
 Result<std::vector<SensorReading>> RealtimeRenderer::measure(const Scene& scene, const RealtimeOptions& options) try {
@@ -304,29 +316,28 @@ Result<std::vector<SensorReading>> RealtimeRenderer::measure(const Scene& scene,
     if (auto updated = update(scene); !updated) return tl::unexpected(updated.error());
     FrameRenderer& frames = *state_->frames;
     // A sensor on a surface looks out from it.
-    const float offset = 1e-4f * frames.scene().bounds().diagonal();
-    std::vector<const Sensor*> sensors;
-    scene.sensors().each([&](SensorId, const Sensor& sensor) { sensors.push_back(&sensor); });
+    const std::vector<SensorPoint> points = sensor_points(scene, 1e-4f * frames.scene().bounds().diagonal());
     std::vector<FrameRenderer::Receiver> receivers;
-    for (const Sensor* sensor : sensors) {
-        const glm::vec3 direction = glm::normalize(sensor->direction);
-        receivers.push_back({sensor->position + direction * offset, direction});
-    }
+    for (const SensorPoint& point : points) receivers.push_back({point.origin(), point.direction});
     auto illuminances = frames.illuminances(receivers, options.environment, *cone_traced);
     if (!illuminances) return tl::unexpected(illuminances.error());
     std::vector<SensorReading> readings;
-    for (std::size_t i = 0; i < sensors.size(); ++i) {
-        glm::vec3 rgb = (*illuminances)[i];
-        if (sensors[i]->type == SensorType::luminance) {
-            auto luminance = state_->luminance_along(receivers[i].position, receivers[i].normal, options.environment, *cone_traced);
-            if (!luminance) return tl::unexpected(luminance.error());
-            rgb = *luminance;
-        }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const SensorPoint& point = points[i];
         SensorReading reading;
-        reading.name = sensors[i]->name;
-        reading.type = sensors[i]->type;
-        reading.rgb = rgb;
-        reading.value = units::luminance(glm::dvec3(rgb));
+        if (point.sensor->type == SensorType::luminance) {
+            auto luminance = state_->luminance_along(point, options.environment, *cone_traced);
+            if (!luminance) return tl::unexpected(luminance.error());
+            reading = *luminance;
+        } else {
+            reading.rgb = (*illuminances)[i].lux;
+            reading.value = units::luminance(reading.rgb);
+            reading.half_width_95 = (*illuminances)[i].half_width_95;
+        }
+        reading.name = point.name;
+        reading.type = point.sensor->type;
+        reading.position = point.position;
+        reading.in_grid = point.sensor->grid.has_value();
         readings.push_back(std::move(reading));
     }
     return readings;

@@ -14,7 +14,8 @@ struct SensorReading {
     double value = 0;          ///< lux or cd/m²
     glm::dvec3 rgb{0};
     double half_width_95 = 0;  ///< of `value`: of the noise of its samples, not of what an engine approximates
-    glm::vec3 position{0};     ///< of a grid: the cell's middle
+    glm::vec3 position{0};
+    bool in_grid = false;      ///< one point of many of its sensor
 };
 
 /// A sensor with the place that it looks out from.

@@ -181,7 +181,8 @@ SensorReading reading_of(const SensorPoint& point, const std::vector<glm::dvec3>
     double squares = 0;
     for (const glm::dvec3& sum : sums) squares += std::pow(units::luminance(sum / samples) - units::luminance(mean), 2);
     const double half_width = student_95 * std::sqrt(squares / (batch_count - 1) / batch_count);
-    return {point.name, point.sensor->type, units::luminance(mean), mean, half_width, point.position};
+    return {point.name, point.sensor->type, units::luminance(mean), mean, half_width, point.position,
+            point.sensor->grid.has_value()};
 }
 
 bool is_good_enough(const SensorReading& reading, const PathOptions& options) {

@@ -1,14 +1,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
+#include "app/cli/false_colour.h"
 #include "app/cli/gi_options.h"
 #include "app/cli/option_values.h"
 #include "app/cli/scene_argument.h"
 #include "app/cli/terminal.h"
+#include "core/image_io.h"
 #include "realtime/renderer.h"
 #include "trace/path_tracer.h"
 
@@ -19,6 +23,8 @@ struct MeasureOptions {
     SceneArgument scene;
     Engine engine = Engine::path;
     int samples = 4096;
+    std::optional<double> target_error;
+    std::string false_colour;  ///< file
     int max_depth = 0;
     std::uint32_t seed = 0;
     bool no_environment = false;
@@ -34,6 +40,7 @@ Result<Readings> measure_with_paths(const Scene& scene, const MeasureOptions& op
     if (auto updated = tracer.update(scene); !updated) return tl::unexpected(updated.error());
     PathOptions path;
     path.samples_per_pixel = options.samples;
+    path.target_error = options.target_error;
     path.max_depth = options.max_depth;
     path.seed = options.seed;
     path.environment = !options.no_environment;
@@ -63,13 +70,16 @@ const char* unit(SensorType type) {
 
 std::string as_json(const Readings& readings) {
     nlohmann::json sensors = nlohmann::json::array();
-    for (const SensorReading& reading : readings)
-        sensors.push_back({{"name", reading.name},
-                           {"type", type_name(reading.type)},
-                           {"value", reading.value},
-                           {"rgb", {reading.rgb.x, reading.rgb.y, reading.rgb.z}},
-                           {"unit", unit(reading.type)},
-                           {"half_width_95", reading.half_width_95}});
+    for (const SensorReading& reading : readings) {
+        nlohmann::json sensor{{"name", reading.name},
+                              {"type", type_name(reading.type)},
+                              {"value", reading.value},
+                              {"rgb", {reading.rgb.x, reading.rgb.y, reading.rgb.z}},
+                              {"unit", unit(reading.type)},
+                              {"half_width_95", reading.half_width_95}};
+        if (reading.in_grid) sensor["position"] = {reading.position.x, reading.position.y, reading.position.z};
+        sensors.push_back(std::move(sensor));
+    }
     // Names come from the command line too (--set), in any encoding.
     return nlohmann::json{{"sensors", std::move(sensors)}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
            "\n";
@@ -83,12 +93,23 @@ std::string csv_field(const std::string& text) {
     return quoted + "\"";
 }
 
+/// Where a scene has grids, the points' places stand at the end of each line.
 std::string as_csv(const Readings& readings) {
-    std::string text = "name,type,value,r,g,b,unit,half_width_95\n";
-    for (const SensorReading& r : readings)
-        text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.4g}\n", csv_field(r.name), type_name(r.type),
-                            r.value, r.rgb.x, r.rgb.y, r.rgb.z, unit(r.type), r.half_width_95);
+    const bool grids = std::any_of(readings.begin(), readings.end(), [](const SensorReading& r) { return r.in_grid; });
+    std::string text = fmt::format("name,type,value,r,g,b,unit,half_width_95{}\n", grids ? ",x,y,z" : "");
+    for (const SensorReading& r : readings) {
+        text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.4g}", csv_field(r.name), type_name(r.type), r.value, r.rgb.x,
+                            r.rgb.y, r.rgb.z, unit(r.type), r.half_width_95);
+        if (grids) text += fmt::format(",{:.9g},{:.9g},{:.9g}", r.position.x, r.position.y, r.position.z);
+        text += "\n";
+    }
     return text;
+}
+
+Result<void> write_false_colour(const std::string& path, const Scene& scene, const Readings& readings) {
+    Picture picture;
+    picture.image = draw_grids(grids_of(scene, readings));
+    return write_picture(path, picture);
 }
 
 /// Option values that are each right but do not go together.
@@ -97,17 +118,29 @@ void check_together(const MeasureOptions& options) {
         throw CLI::ValidationError("--max-depth", "the real-time engine counts no bounces: expected 1 (direct light)");
     if (options.engine == Engine::path && options.gi.given())
         throw CLI::ValidationError(options.gi.gi.empty() ? "--voxels" : "--gi", "expected with --engine realtime");
+    if (options.engine == Engine::realtime && options.target_error)
+        throw CLI::ValidationError("--target-error", "expected with --engine path");
+    if (!options.false_colour.empty() && !is_display_format(options.false_colour))
+        throw CLI::ValidationError("--false-colour", "expected a .png or .jpg file, found \"" + options.false_colour + "\"");
 }
 
 Result<void> measure(const MeasureOptions& options) {
     check_together(options);
+    if (!options.false_colour.empty())
+        if (auto checked = check_writable(options.false_colour); !checked) return checked;
     auto scene = load(options.scene);
     if (!scene) return tl::unexpected(scene.error());
     if (scene->sensors().size() == 0) return fail(options.scene.path, "expected sensors to measure, found none");
+    bool has_grid = false;
+    scene->sensors().each([&](SensorId, const Sensor& sensor) { has_grid = has_grid || sensor.grid; });
+    if (!options.false_colour.empty() && !has_grid)
+        return fail(options.scene.path, "expected a grid of sensors to draw in false colour, found none");
     auto readings =
         options.engine == Engine::path ? measure_with_paths(*scene, options) : measure_in_real_time(*scene, options);
     if (interrupted()) return fail("", "interrupted");
     if (!readings) return tl::unexpected(readings.error());
+    if (!options.false_colour.empty())
+        if (auto written = write_false_colour(options.false_colour, *scene, *readings); !written) return written;
     return print(options.json ? as_json(*readings) : as_csv(*readings));
 }
 
@@ -119,8 +152,13 @@ Action declare_measure(CLI::App& command) {
     command.add_option_function<std::string>(
         "--engine", [options = options.get()](const std::string& text) { options->engine = read_engine(text); },
         "path (default) or realtime");
-    command.add_option("--spp", options->samples, "Path engine: samples a sensor; default 4096")
+    command.add_option("--spp", options->samples, "Path engine: samples a sensor (at least, with --target-error); default 4096")
         ->check(check_positive);
+    command.add_option("--target-error", options->target_error,
+                       "Path engine: sample each sensor on until its 95 % half-width is this share of its value")
+        ->check(check_positive);
+    command.add_option("--false-colour", options->false_colour,
+                       "Draw the scene's grids with iso-lines and a legend into this PNG or JPEG");
     command.add_option("--max-depth", options->max_depth, "Scattering events, 1 = direct light; default unlimited")
         ->check(check_not_negative);
     command.add_option("--seed", options->seed, "Seed of the samples")->check(check_not_negative);

@@ -168,7 +168,12 @@ bool is_there(RasterTriangle triangle, RasterView view, ivec2 pixel) {
             vertex_alpha += here[i] * (fetch_vec4(geometry.color_offset, triangle.index[i]).a - 1.0f);
     const vec2 texcoord_dx = texcoords * barycentric_at(triangle, view, center + vec2(1.0f, 0.0f)) - texcoord;
     const vec2 texcoord_dy = texcoords * barycentric_at(triangle, view, center + vec2(0.0f, 1.0f)) - texcoord;
-    const float opacity = surface_opacity_within(material, texcoord, texcoord_dx, texcoord_dy, vertex_alpha);
+    float opacity = surface_opacity_within(material, texcoord, texcoord_dx, texcoord_dy, vertex_alpha);
+    if (material.model == material_model_thin) {
+        const vec3 normal = cross(triangle.world[1].xyz - triangle.world[0].xyz, triangle.world[2].xyz - triangle.world[0].xyz);
+        const vec2 at = (center * 2.0f / vec2(view.width, view.height) - 1.0f) * vec2(1.0f, -1.0f);
+        opacity = pane_cover(material, view.world_to_clip, at, normal);
+    }
     if ((material.flags & material_flag_alpha_blend) == 0u) return opacity >= material.alpha_cutoff;
     const uvec2 texel = uvec2(pixel) + uvec2(view.corner_x, view.corner_y);
     return unit_interval(alpha_seed(texel, triangle.instance, push.random_seed + view.number)) < opacity;
