@@ -255,15 +255,46 @@ SHADING_FN KernelLightSample kernel_sample_light(SHADING_IN(LightData) light, ve
     return result;
 }
 
+/// Share of the samples that goes to emitters outside the light tree.
+SHADING_FN float kernel_distant_share() {
+    return kernel_frame().distant_emitters > 0u ? fetch_emitter(kernel_frame().distant_emitters - 1u).cumulative : 0.0f;
+}
+
 /// Probability with which kernel_sample_emitters, from there, selects this emitter.
-SHADING_FN float kernel_selection_probability(SHADING_IN(KernelEmitter) emitter, vec3 /*from*/, vec3 /*normal*/) {
-    return emitter.probability;
+SHADING_FN float kernel_selection_probability(SHADING_IN(KernelEmitter) emitter, vec3 from, vec3 normal) {
+    if (kernel_frame().light_node_count == 0u || emitter.light_node == kernel_no_emitter) {
+        return emitter.probability;
+    }
+    return (1.0f - kernel_distant_share()) * kernel_light_leaf_probability(emitter.light_node, from, normal);
+}
+
+/// An emitter and the probability of selecting it there; kernel_no_emitter where none lights the place.
+SHADING_FN uint kernel_select_emitter_at(vec3 from, vec3 normal, float u, SHADING_OUT(float) probability) {
+    const float distant = kernel_distant_share();
+    if (kernel_frame().light_node_count == 0u || u < distant) {
+        const uint selected = kernel_select_emitter(u);
+        probability = fetch_emitter(selected).probability;
+        return selected;
+    }
+    probability = 1.0f - distant;
+    return kernel_walk_light_tree(from, normal, min((u - distant) / probability, 0.99999994f), probability);
 }
 
 /// One emitter, one direction to it; pdf and light account for the selection. `normal` is the shading normal
 /// on the side that light must come from, or zero where light from both sides counts.
 SHADING_FN KernelLightSample kernel_sample_emitters(vec3 from, vec3 normal, float u_select, vec2 u) {
-    const uint selected = kernel_select_emitter(u_select);
+    float probability;
+    const uint selected = kernel_select_emitter_at(from, normal, u_select, probability);
+    if (selected == kernel_no_emitter) {
+        KernelLightSample nothing;
+        nothing.direction = vec3(0.0f, 1.0f, 0.0f);
+        nothing.pdf = 0.0f;
+        nothing.light = vec3(0.0f);
+        nothing.distance = kernel_infinity;
+        nothing.target = vec3(0.0f);
+        nothing.emitter = kernel_no_emitter;
+        return nothing;
+    }
     SHADING_IN(KernelEmitter) emitter = fetch_emitter(selected);
     KernelLightSample result;
     if (emitter.kind == kernel_emitter_light) {
@@ -273,7 +304,6 @@ SHADING_FN KernelLightSample kernel_sample_emitters(vec3 from, vec3 normal, floa
     } else {
         result = kernel_sample_surface(emitter, from, u);
     }
-    const float probability = kernel_selection_probability(emitter, from, normal);
     result.pdf *= probability;
     result.light = result.light / max(probability, 1.0e-30f);
     result.emitter = selected;

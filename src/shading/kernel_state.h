@@ -72,6 +72,25 @@ struct KernelEmitter {
     float cumulative;   // sum of the probabilities up to and including this one
     float area;         // m²; sphere: its world radius in metres if it stays a sphere there, else 0
     float orientation;  // −1 where the instance mirrors: the front is orientation · edge0 × edge1
+    uint light_node;    // its leaf in the light tree, or kernel_no_emitter: `probability` is all
+};
+
+/// A node of the tree over the emitters that stand somewhere: node 0 is the root, the children of each stand side by
+/// side at odd and even places.
+SHADING_CONST uint kernel_light_node_leaf = 1u;
+SHADING_CONST uint kernel_light_node_two_sided = 2u;
+
+struct KernelLightNode {
+    vec3 bounds_min;  // m, world
+    float intensity;  // cd, along the normals, of all its emitters together
+    vec3 bounds_max;
+    uint child;  // the first of two; leaf: the emitter
+    vec3 axis;
+    float cos_normals;   // of the half-angle about `axis` (two-sided: or −axis) within which all normals lie
+    float cos_emission;  // of the angle to its normal beyond which no emitter shines
+    uint parent;
+    uint flags;  // kernel_light_node_…
+    uint padding;
 };
 
 /// A direction to a selected emitter and what it brings, for next-event estimation.
@@ -121,6 +140,8 @@ struct KernelFrame {
     uint sky_rows;
     uint scattered_emission;  // 0: no scattered ray can meet any light, so the last one need not be traced
     uint sample_streams;      // independently scrambled sequences that a pixel's samples take turns in; at least 1
+    uint distant_emitters;    // directional lights and the sky: first among the emitters, in no tree
+    uint light_node_count;    // 0: emitters are selected by their `probability` alone
 };
 
 // -- the path

@@ -21,12 +21,14 @@
 //   vec2 fetch_texcoord(uint geometry, uint set, uint vertex)
 //   KernelEmitter fetch_emitter(uint)
 //   uint fetch_first_emitter(uint instance), fetch_light_emitter(uint light), fetch_visible_light(uint i)
+//   KernelLightNode fetch_light_node(uint i)
 //   float fetch_sky_cumulative(uint i)                             rows, then a run of columns each row
 #ifndef HELIODON_SHADING_PATH_KERNEL_H
 #define HELIODON_SHADING_PATH_KERNEL_H
 #include "shading/material_fetch.h"
 #include "shading/kernel_surface.h"
 #include "shading/luminaire.h"
+#include "shading/kernel_light_tree.h"
 #include "shading/kernel_emitters.h"
 
 // -- random numbers: dimension pair 0 is the pixel; each scattering event takes four more

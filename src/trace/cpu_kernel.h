@@ -51,6 +51,7 @@ struct CpuKernel {
     uint fetch_first_emitter(uint instance) const { return emitter_table.first_emitter[instance]; }
     uint fetch_light_emitter(uint light) const { return emitter_table.light_emitter[light]; }
     uint fetch_visible_light(uint i) const { return emitter_table.visible_lights[i]; }
+    const KernelLightNode& fetch_light_node(uint i) const { return emitter_table.light_nodes[i]; }
     float fetch_sky_cumulative(uint i) const { return emitter_table.sky_cumulative[i]; }
     vec4 scene_texture(uint index, vec2 uv) const { return textures.sample(index, uv); }
     vec2 scene_texture_size(uint index) const { return vec2(textures.size(index)); }

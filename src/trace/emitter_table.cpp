@@ -6,6 +6,7 @@
 
 #include "core/units.h"
 #include "shading/sky.h"
+#include "trace/emitter_bounds.h"
 
 namespace heliodon::trace {
 namespace {
@@ -27,6 +28,7 @@ struct Draft {
     void begin_group() { group_begin.push_back(emitters.size()); }
     void add(const KernelEmitter& emitter, double lumen) {
         emitters.push_back(emitter);
+        emitters.back().light_node = kernel_no_emitter;
         flux.push_back(std::isfinite(lumen) ? std::max(lumen, 0.0) : 0.0);
     }
 };
@@ -49,10 +51,13 @@ double light_flux(const shading::LightData& light, double scene_radius) {
     }
 }
 
-void add_lights(const convert::FlatScene& flat, double scene_radius, EmitterTable& table, Draft& draft) {
-    table.light_emitter.assign(flat.lights().size(), kernel_no_emitter);
+/// Those that are directional, or all others.
+void add_lights(const convert::FlatScene& flat, double scene_radius, bool directional, EmitterTable& table,
+                Draft& draft) {
+    table.light_emitter.resize(flat.lights().size(), kernel_no_emitter);
     for (std::uint32_t i = 0; i < flat.lights().size(); ++i) {
         const shading::LightData& light = flat.lights()[i];
+        if ((light.type == shading::light_type_directional) != directional) continue;
         const double lumen = light_flux(light, scene_radius);
         if (!(lumen > 0)) continue;
         table.light_emitter[i] = static_cast<std::uint32_t>(draft.emitters.size());
@@ -268,6 +273,18 @@ void normalize(const Draft& draft, EmitterTable& table) {
     }
 }
 
+void plant_light_tree(const convert::FlatScene& flat, const Draft& draft, EmitterTable& table) {
+    std::vector<LightBounds> lights;
+    std::vector<std::uint32_t> emitters, leaves;
+    for (auto i = table.distant_emitters; i < table.emitters.size(); ++i) {
+        if (!(table.emitters[i].probability > 0)) continue;
+        lights.push_back(emitter_bounds(flat, table.emitters[i], draft.flux[i]));
+        emitters.push_back(i);
+    }
+    table.light_nodes = build_light_tree(lights, emitters, leaves);
+    for (std::size_t i = 0; i < emitters.size(); ++i) table.emitters[emitters[i]].light_node = leaves[i];
+}
+
 }  // namespace
 
 EmitterTable build_emitters(const convert::FlatScene& flat, const TextureTable& textures, bool environment) {
@@ -275,11 +292,14 @@ EmitterTable build_emitters(const convert::FlatScene& flat, const TextureTable& 
     Draft draft;
     const Bounds bounds = flat.bounds();
     const double scene_radius = bounds.empty() ? 1.0 : std::max(0.5 * bounds.diagonal(), 1e-6);
-    add_lights(flat, scene_radius, table, draft);
-    add_instances(flat, textures, table, draft);
+    add_lights(flat, scene_radius, true, table, draft);
     if (environment) add_sky(flat, textures, scene_radius, table, draft);
+    table.distant_emitters = static_cast<std::uint32_t>(draft.emitters.size());
+    add_lights(flat, scene_radius, false, table, draft);
+    add_instances(flat, textures, table, draft);
     table.scattered_emission = table.scattered_emission || !table.visible_lights.empty();
     normalize(draft, table);
+    plant_light_tree(flat, draft, table);
     return table;
 }
 

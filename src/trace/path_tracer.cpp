@@ -105,6 +105,9 @@ struct PathTracer::State {
         kernel.frame.sky_rows = emitters.sky_rows;
         kernel.frame.scattered_emission = emitters.scattered_emission ? 1 : 0;
         kernel.frame.sample_streams = 1;
+        kernel.frame.distant_emitters = emitters.distant_emitters;
+        kernel.frame.light_node_count =
+            options.light_tree ? static_cast<std::uint32_t>(emitters.light_nodes.size()) : 0u;
         return kernel;
     }
 };

@@ -124,6 +124,7 @@ RenderIdentity render_identity(const CpuKernel& kernel, const PathOptions& optio
             {"seed", fmt::format("{}", options.seed)},
             {"integrator", options.integrator == Integrator::bidirectional ? "bidirectional" : "path"},
             {"max-depth", fmt::format("{}", options.max_depth)},
+            {"light-selection", options.light_tree ? "tree" : "flux"},
             {"environment", options.environment ? "yes" : "no"},
             {"target-error", options.target_error ? fmt::format("{}", *options.target_error) : "none"},
             {"variance", kernel.frame.sample_streams > 1 ? "yes" : "no"},
@@ -149,7 +150,8 @@ Result<void> restore_state(const Picture& picture, const RenderIdentity& identit
     const auto done = picture.attributes.find(done_name);
     if (done == picture.attributes.end())
         return fail("", "expected a picture of an interrupted or resumable render (its state is not in this one)");
-    for (const char* name : {"format", "size", "seed", "max-depth", "environment", "target-error", "variance", "camera", "scene"}) {
+    for (const char* name : {"format", "size", "seed", "integrator", "max-depth", "light-selection",
+                             "environment", "target-error", "variance", "camera", "scene"}) {
         const auto stored = picture.attributes.find(std::string(prefix) + name);
         const std::string found = stored == picture.attributes.end() ? "nothing" : stored->second;
         if (found != identity.at(name))

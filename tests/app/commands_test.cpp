@@ -11,6 +11,15 @@ using nlohmann::json;
 
 class Commands : public ProgramTest {
 protected:
+    /// Starts a render that takes forever and interrupts it. On a busy machine the signal may come before the program is
+    /// ready for it: then later.
+    [[nodiscard]] Ended interrupt(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), {"render", "s.heliodon.json", "--spp", "10000000", "--size", "64x64"});
+        Ended ended;
+        for (int seconds = 1; seconds <= 16 && ended.error.empty(); seconds *= 2)
+            ended = run(arguments, "timeout --foreground --preserve-status --signal INT " + std::to_string(seconds));
+        return ended;
+    }
     void SetUp() override {
         ProgramTest::SetUp();
         write("s.heliodon.json", small_scene);
@@ -58,18 +67,59 @@ TEST_F(Commands, TheSameCommandGivesTheSamePictureWhateverTheThreadCount) {
     EXPECT_NE(read_picture(folder() / "a.exr")->image.pixels, read_picture(folder() / "c.exr")->image.pixels);
 }
 
-TEST_F(Commands, AnInterruptedRenderWritesNothing) {
-    for (const std::string engine : {"path", "realtime"}) {
-        Ended ended;
-        // On a busy machine the signal may come before the program is ready for it: then later.
-        for (int seconds = 1; seconds <= 16 && ended.error.empty(); seconds *= 2)
-            ended = run({"render", "s.heliodon.json", "--engine", engine, "--spp", "10000000", "--size", "64x64", "-o",
-                         "a.exr"},
-                        "timeout --foreground --preserve-status --signal INT " + std::to_string(seconds));
-        EXPECT_EQ(ended.code, 130) << engine << ended.error;
-        EXPECT_EQ(ended.error, "heliodon: interrupted\n");
-        EXPECT_EQ(files(), std::vector<std::string>{"s.heliodon.json"});
-    }
+TEST_F(Commands, AnInterruptedRealTimeRenderWritesNothing) {
+    const Ended ended = interrupt({"--engine", "realtime", "-o", "a.exr"});
+    EXPECT_EQ(ended.code, 130) << ended.error;
+    EXPECT_EQ(ended.error, "heliodon: interrupted\n");
+    EXPECT_EQ(files(), std::vector<std::string>{"s.heliodon.json"});
+}
+
+TEST_F(Commands, AnInterruptedPathTracedPictureIsWrittenAndGoneOnFrom) {
+    const Ended ended = interrupt({"--engine", "path", "-o", "a.exr", "-o", "a.png"});
+    EXPECT_EQ(ended.code, 130) << ended.error;
+    EXPECT_EQ(ended.error_lines(), 1);
+    EXPECT_NE(ended.error.find("the picture so far, and --resume goes on from a.exr"), std::string::npos) << ended.error;
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.exr", "a.png", "s.heliodon.json"}));
+    const auto before = read_picture(folder() / "a.exr");
+    ASSERT_TRUE(before) << before.error().text();
+    const Ended more = run({"render", "s.heliodon.json", "--engine", "path", "--size", "64x64", "--seconds", "0.2",
+                            "--resume", "-o", "a.exr"});
+    ASSERT_EQ(more.code, 0) << more.error;
+    const auto after = read_picture(folder() / "a.exr");
+    EXPECT_GT(std::stoi(after->attributes.at("resume.samples")), std::stoi(before->attributes.at("resume.samples")));
+}
+
+TEST_F(Commands, ResumingGivesTheSameBitsAsAllSamplesAtOnce) {
+    const auto path = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"render", "s.heliodon.json", "--engine", "path", "--size", "24x16"});
+        return run(arguments);
+    };
+    ASSERT_EQ(path({"--spp", "6", "--resume", "-o", "a.exr"}).code, 0) << "nothing there yet";
+    ASSERT_EQ(path({"--spp", "20", "--resume", "-o", "a.exr"}).code, 0);
+    ASSERT_EQ(path({"--spp", "20", "-o", "b.exr"}).code, 0);
+    const auto resumed = read_picture(folder() / "a.exr"), at_once = read_picture(folder() / "b.exr");
+    EXPECT_EQ(resumed->image.pixels, at_once->image.pixels);
+    EXPECT_TRUE(at_once->layers.empty()) << "state that nobody asked for";
+    const Ended other = path({"--seed", "3", "--resume", "-o", "a.exr"});
+    EXPECT_EQ(other.code, 1);
+    EXPECT_EQ(other.error, "heliodon: a.exr: cannot go on with another seed: expected 3, found 0\n");
+    const Ended stateless = path({"--resume", "-o", "b.exr"});
+    EXPECT_EQ(stateless.code, 1);
+    EXPECT_EQ(stateless.error.find("heliodon: b.exr: expected a picture of an interrupted"), 0u) << stateless.error;
+}
+
+TEST_F(Commands, ATargetErrorSaysHowFarItGot) {
+    const auto path = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"render", "s.heliodon.json", "--engine", "path", "--size", "24x16", "--json"});
+        const Ended ended = run(arguments);
+        EXPECT_EQ(ended.code, 0) << ended.error;
+        return json::parse(ended.output);
+    };
+    const json reached = path({"--target-error", "0.1", "--aov", "variance,samples", "-o", "a.exr"});
+    EXPECT_EQ(reached["target_reached"], 1);
+    EXPECT_GE(reached["spp_mean"], 32);
+    EXPECT_LE(reached["spp_mean"], reached["spp"]);
+    EXPECT_EQ(path({"--target-error", "1e-9", "--spp", "40", "-o", "b.exr"})["spp"], 40);
 }
 
 TEST_F(Commands, LayersAreWrittenIntoTheExr) {

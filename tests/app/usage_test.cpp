@@ -88,7 +88,11 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongUsage{
                         "AovWithoutExr", {"render", "s.heliodon.json", "-o", "o.png", "--aov", "albedo"}, "--aov"},
                     WrongUsage{"SamplesZero", render_with({"--engine", "path", "--spp", "0"}), "--spp"},
-                    WrongUsage{"SamplesAndSeconds", render_with({"--engine", "path", "--spp", "4", "--seconds", "1"}), "--spp"},
+                    WrongUsage{"TargetErrorZero", render_with({"--engine", "path", "--target-error", "0"}), "--target-error"},
+                    WrongUsage{"TargetErrorInRealTime", render_with({"--target-error", "0.1"}), "--engine path"},
+                    WrongUsage{"ResumeInRealTime", render_with({"--resume"}), "--engine path"},
+                    WrongUsage{"ResumeOfFrames", render_with({"--engine", "path", "--resume", "--frames", "1..2"}), "--frames"},
+                    WrongUsage{"VarianceInRealTime", render_with({"--aov", "variance"}), "--engine path"},
                     WrongUsage{"DepthForRealtime", render_with({"--max-depth", "3"}), "--max-depth"},
                     WrongUsage{"Frames", render_with({"--frames", "9..3"}), "9..3"},
                     WrongUsage{"Override", render_with({"--set", "render.gi"}), "render.gi"},

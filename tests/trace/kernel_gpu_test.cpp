@@ -47,6 +47,8 @@ public:
         };
         append(kernel.emitter_table.light_emitter);
         append(kernel.emitter_table.visible_lights);
+        append(std::span(reinterpret_cast<const std::uint32_t*>(kernel.emitter_table.light_nodes.data()),
+                         16 * kernel.emitter_table.light_nodes.size()));
         add("frames", std::span(&kernel.frame, 1));
         add("instances", kernel.flat.instances());
         add("materials", kernel.flat.materials());
@@ -129,7 +131,9 @@ TEST(Kernel, OnTheDeviceTakesTheSameStepsAsOnTheHost) {
                     .sky_columns = 0,
                     .sky_rows = 0,
                     .scattered_emission = 1,
-                    .sample_streams = 1};
+                    .sample_streams = 1,
+                    .distant_emitters = emitters.distant_emitters,
+                    .light_node_count = static_cast<std::uint32_t>(emitters.light_nodes.size())};
 
     const std::uint32_t count = 64 * 64;
     DeviceTables tables(*device, kernel);

@@ -14,7 +14,7 @@ layout(scalar, binding = 7) readonly buffer Indices { uint indices[]; };
 layout(scalar, binding = 8) readonly buffer Positions { vec3 positions[]; };
 layout(scalar, binding = 9) readonly buffer Normals { vec3 normals[]; };
 layout(scalar, binding = 10) readonly buffer Emitters { KernelEmitter emitters[]; };
-/// first_emitter by instance, then light_emitter by light, then the visible lights.
+/// first_emitter by instance, then light_emitter by light, then the visible lights, then the light tree's nodes.
 layout(scalar, binding = 11) readonly buffer EmitterIndices { uint emitter_indices[]; };
 layout(scalar, binding = 12) readonly buffer Tables { float tables[]; };
 layout(scalar, binding = 13) readonly buffer Hits { KernelHit hits[]; };
@@ -51,6 +51,20 @@ KernelEmitter fetch_emitter(uint i) { return emitters[i]; }
 uint fetch_first_emitter(uint instance) { return emitter_indices[instance]; }
 uint fetch_light_emitter(uint light) { return emitter_indices[instance_count + light]; }
 uint fetch_visible_light(uint i) { return emitter_indices[instance_count + light_count + i]; }
+KernelLightNode fetch_light_node(uint i) {
+    const uint at = instance_count + light_count + frames[0].visible_light_count + 16u * i;
+    KernelLightNode node;
+    node.bounds_min = uintBitsToFloat(uvec3(emitter_indices[at], emitter_indices[at + 1u], emitter_indices[at + 2u]));
+    node.intensity = uintBitsToFloat(emitter_indices[at + 3u]);
+    node.bounds_max = uintBitsToFloat(uvec3(emitter_indices[at + 4u], emitter_indices[at + 5u], emitter_indices[at + 6u]));
+    node.child = emitter_indices[at + 7u];
+    node.axis = uintBitsToFloat(uvec3(emitter_indices[at + 8u], emitter_indices[at + 9u], emitter_indices[at + 10u]));
+    node.cos_normals = uintBitsToFloat(emitter_indices[at + 11u]);
+    node.cos_emission = uintBitsToFloat(emitter_indices[at + 12u]);
+    node.parent = emitter_indices[at + 13u];
+    node.flags = emitter_indices[at + 14u];
+    return node;
+}
 float fetch_sky_cumulative(uint i) { return 0.0; }
 vec4 scene_texture(uint index, vec2 uv) { return vec4(1.0); }
 vec2 scene_texture_size(uint index) { return vec2(1.0); }
