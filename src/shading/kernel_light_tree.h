@@ -31,7 +31,8 @@ SHADING_FN float kernel_light_importance(SHADING_IN(KernelLightNode) node, vec3 
     if (off_normals.x <= node.cos_emission) {
         return 0.0f;
     }
-    float importance = node.intensity * off_normals.x / max(distance2, max(radius2, 1.0e-37f));
+    // At least what the slack that bounds have against rounding (light_tree.cpp) needs to stay above 0.
+    float importance = node.intensity * max(off_normals.x, 1.0e-3f) / max(distance2, max(radius2, 1.0e-37f));
     if (normal != vec3(0.0f)) {
         importance *= max(0.0f, kernel_angle_less(kernel_angle(-dot(normal, direction)), extent).x);
     }
