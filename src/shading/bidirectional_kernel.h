@@ -40,6 +40,7 @@ SHADING_FN bool bidirectional_connect_camera(SHADING_INOUT(BidirectionalState) s
                       bidirectional_light_paths();
     const float others = weight_of_others(state.vertex.weights, pdf, scattering.pdf);
     const vec3 light = state.vertex.throughput * scattering.value *
+                       bidirectional_transmittance(state, -direction, sqrt(squared)) *
                        (pdf * bidirectional_weight(state.vertex.events + 1u, 1u, others) /
                         max(vertex_cosine(state.vertex, state.vertex.toward), 1.0e-10f));
     if (max_component(light) <= 0.0f) {
@@ -67,12 +68,16 @@ SHADING_FN void bidirectional_take_light_hit(SHADING_INOUT(BidirectionalState) s
             }
             return;
         }
-        const MaterialPoint at = material_at(material, point.texcoord0, point.texcoord1, point.color, false);
+        const MaterialPoint at = kernel_material(hit, point, material, true);
         if (bidirectional_arrive(state, hit, point, material, at)) {
             if (state.vertex.events == 1u) {
                 const bool delta = kernel_is_delta(state.emitted.emitter);
+                const bool afar = kernel_emits_from_afar(state.emitted.emitter);
                 const vec3 path = point.position - state.emitted.origin;
-                const float squared = delta && !kernel_emits_from_afar(state.emitted.emitter) ? dot(path, path) : 1.0f;
+                const float squared = delta && !afar ? dot(path, path) : 1.0f;
+                // A lamp within a solid.
+                state.vertex.throughput = state.vertex.throughput *
+                                          bidirectional_transmittance(state, -state.walk.direction, afar ? kernel_infinity : length(path));
                 const float next_event = kernel_next_event_pdf(state.emitted, point.position,
                                                                vertex_light_side(state.vertex, -state.walk.direction));
                 state.vertex.weights = weights_lit(next_event, state.emitted.density, squared,
@@ -166,6 +171,7 @@ SHADING_FN bool bidirectional_sample_emitters(SHADING_INOUT(BidirectionalState) 
     const float back = vertex_scattering_towards(state.vertex, light.direction, state.vertex.toward).pdf;
     const float others = others_light + weight_of_others(state.vertex.weights, into, back);
     const vec3 gathered = state.vertex.throughput * scattering.value * light.light *
+                          bidirectional_transmittance(state, light.direction, light.distance) *
                           bidirectional_weight(1u, state.vertex.events + 1u, others);
     kernel_aim_shadow(state.walk, state.vertex.position, state.vertex.error, state.vertex.geometric_normal, light, gathered);
     state.shadow_events = state.vertex.events;
@@ -195,6 +201,7 @@ SHADING_FN bool bidirectional_connect(SHADING_INOUT(BidirectionalState) state, S
     const float others = weight_of_others(y.weights, at_camera.pdf * light_cosine / squared, at_light.pdf) +
                          weight_of_others(state.vertex.weights, from_light * camera_cosine / squared, back);
     const vec3 light = state.vertex.throughput * at_camera.value * y.throughput * at_light.value *
+                       bidirectional_transmittance(state, direction, sqrt(squared)) *
                        (light_cosine / (squared * max(vertex_cosine(y, y.toward), 1.0e-10f)) *
                         bidirectional_weight(y.events + 1u, state.vertex.events + 1u, others));
     if (max_component(light) <= 0.0f) {
@@ -229,7 +236,10 @@ SHADING_FN void bidirectional_take_camera_hit(SHADING_INOUT(BidirectionalState) 
         return;
     }
     const bool back = dot(state.walk.direction, point.geometric_normal) >= 0.0f && (material.flags & material_flag_two_sided) == 0u;
-    const MaterialPoint at = material_at(material, point.texcoord0, point.texcoord1, point.color, back);
+    const MaterialPoint at = kernel_material(hit, point, material, true);
+    if (state.walk.depth == 0u && back && at.surface.inside && is_extended(at.surface)) {  // the camera is in the solid
+        state.walk.throughput = state.walk.throughput * kernel_solid_transmittance(at.surface.absorption, hit.t);
+    }
     if (!back && max_component(at.emission) > 0.0f) {
         bidirectional_add_emission(state, point, at.emission);
     }
@@ -283,6 +293,11 @@ SHADING_FN void bidirectional_take_hit(SHADING_INOUT(BidirectionalState) state, 
     const bool from_light = state.phase == bidirectional_phase_light;
     state.splat_pixel = bidirectional_no_pixel;
     if (state.walk.stage == kernel_stage_scatter) {
+        if (max_component(state.walk.absorption) > 0.0f) {
+            state.walk.throughput =
+                state.walk.throughput *
+                kernel_solid_transmittance(state.walk.absorption, hit.kind == kernel_hit_surface ? hit.t : kernel_infinity);
+        }
         if (from_light) {
             bidirectional_take_light_hit(state, hit);
         } else {

@@ -21,7 +21,7 @@ struct SubpathVertex {
     vec3 error;             // bound on the rounding error of each coordinate, m
     uint events;            // scattering events of its subpath up to and with this one
     vec3 geometric_normal;  // unit, on the front side
-    float padding;
+    uint solid;             // 1: behind it lies a transmissive solid's inside
     vec3 mapped_normal;  // unit, on the front side, after normal and bump maps
     vec3 toward;         // unit, to the vertex before, from whose side the three last members are
     vec3 throughput;

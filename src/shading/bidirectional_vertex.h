@@ -9,50 +9,66 @@
 #include "shading/material_eval.h"
 SHADING_BEGIN
 
-/// Looks at the vertex from `toward`. False where it scatters nothing that way.
-SHADING_FN bool vertex_turn(SHADING_INOUT(SubpathVertex) x, vec3 toward) {
+/// Makes `surface` the vertex's as seen from `toward`, with the shading normal there. False where it scatters nothing
+/// that way.
+SHADING_FN bool vertex_seen(SHADING_IN(SubpathVertex) x, vec3 toward, SHADING_INOUT(Surface) surface, SHADING_OUT(vec3) normal) {
     bool front = dot(toward, x.geometric_normal) > 0.0f;
     bool inside = !front && x.two_sided == 0u;
-    x.toward = toward;
-    x.surface.inside = inside && x.surface.model == material_model_standard && x.surface.transmission > 0.0f;
+    surface.inside = inside && x.solid != 0u;
+    normal = x.geometric_normal;
     // The back of a one-sided surface is black; that of a transmissive solid is its inside.
-    if ((inside && !x.surface.inside) || x.surface.model == material_model_unlit) {
+    if ((inside && !surface.inside) || surface.model == material_model_unlit) {
         return false;
     }
-    x.shading_normal = usable_shading_normal(x.mapped_normal, front ? x.geometric_normal : -x.geometric_normal, toward);
-    vec3 local = to_local(frame_from_normal(x.shading_normal), toward);
-    if (local.z <= 0.0f) {
-        return false;
+    normal = usable_shading_normal(x.mapped_normal, front ? x.geometric_normal : -x.geometric_normal, toward);
+    return dot(normal, toward) > 0.0f;
+}
+SHADING_FN bool vertex_turn(SHADING_INOUT(SubpathVertex) x, vec3 toward) {
+    vec3 normal;
+    bool scatters = vertex_seen(x, toward, x.surface, normal);
+    x.toward = toward;
+    x.shading_normal = normal;
+    if (scatters) {
+        x.lobes = bsdf_prepare(x.surface, to_local(surface_frame(x.surface, normal), toward));
     }
-    x.lobes = bsdf_prepare(x.surface, local);
-    return true;
+    return scatters;
 }
 
-/// Light from `other` to where the vertex is looked at from; the density is that of sampling `other` from there.
-SHADING_FN VertexScattering vertex_scattering(SHADING_IN(SubpathVertex) x, vec3 other) {
+/// Light from `other` to `toward`, of which `surface`, `lobes` and `normal` are; the density is that of sampling `other`.
+SHADING_FN VertexScattering vertex_evaluate(vec3 geometric_normal, SHADING_IN(Surface) surface, SHADING_IN(BsdfLobes) lobes, vec3 normal,
+                                            vec3 toward, vec3 other) {
     VertexScattering result;
     result.value = vec3(0.0f);
     result.pdf = 0.0f;
-    Frame frame = frame_from_normal(x.shading_normal);
-    vec3 wo = to_local(frame, x.toward);
+    Frame frame = surface_frame(surface, normal);
     vec3 wi = to_local(frame, other);
-    vec3 geometric = dot(x.toward, x.geometric_normal) > 0.0f ? x.geometric_normal : -x.geometric_normal;
-    if (same_side(other, geometric, wi.z) > 0.0f) {
-        result.value = bsdf_evaluate_prepared(x.surface, x.lobes, wo, wi);
-        result.pdf = bsdf_pdf_prepared(x.surface, x.lobes, wo, wi);
+    if (same_side(other, dot(toward, geometric_normal) > 0.0f ? geometric_normal : -geometric_normal, wi.z) > 0.0f) {
+        vec3 wo = to_local(frame, toward);
+        result.value = bsdf_evaluate_prepared(surface, lobes, wo, wi);
+        result.pdf = bsdf_pdf_prepared(surface, lobes, wo, wi);
     }
     return result;
 }
-/// The same, looked at from `viewer`; the light is the vertex's own.
+SHADING_FN VertexScattering vertex_scattering(SHADING_IN(SubpathVertex) x, vec3 other) {
+    return vertex_evaluate(x.geometric_normal, x.surface, x.lobes, x.shading_normal, x.toward, other);
+}
+/// The same, looked at from `viewer`.
 SHADING_FN VertexScattering vertex_scattering_towards(SHADING_IN(SubpathVertex) x, vec3 viewer, vec3 other) {
-    SubpathVertex turned = x;
-    if (!vertex_turn(turned, viewer)) {
+    Surface surface = x.surface;
+    vec3 normal;
+    if (!vertex_seen(x, viewer, surface, normal)) {
         VertexScattering black;
         black.value = vec3(0.0f);
         black.pdf = 0.0f;
         return black;
     }
-    return vertex_scattering(turned, other);
+    BsdfLobes lobes = bsdf_prepare(surface, to_local(surface_frame(surface, normal), viewer));
+    return vertex_evaluate(x.geometric_normal, surface, lobes, normal, viewer, other);
+}
+/// What absorbs light, in 1/m, on the side of the vertex that `direction` points to.
+SHADING_FN vec3 vertex_absorption(SHADING_IN(SubpathVertex) x, vec3 direction) {
+    bool within = is_extended(x.surface) && x.solid != 0u && x.two_sided == 0u && dot(direction, x.geometric_normal) < 0.0f;
+    return within ? x.surface.absorption : vec3(0.0f);
 }
 
 /// The normal that light sampling aims by (kernel_sample_emitters) for light from `direction`: as kernel_light_side,

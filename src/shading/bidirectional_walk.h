@@ -71,6 +71,12 @@ SHADING_FN void bidirectional_begin_camera(SHADING_INOUT(BidirectionalState) sta
 
 // -- rays
 
+/// What a solid leaves of light on its way of `distance` metres from the vertex in hand.
+SHADING_FN vec3 bidirectional_transmittance(SHADING_IN(BidirectionalState) state, vec3 direction, float distance) {
+    const vec3 absorption = vertex_absorption(state.vertex, direction);
+    return max_component(absorption) > 0.0f ? kernel_solid_transmittance(absorption, distance) : vec3(1.0f);
+}
+
 /// A shadow ray from the vertex in hand to `target`, for light that completes a path of `events` scattering events.
 SHADING_FN void bidirectional_cast_shadow(SHADING_INOUT(BidirectionalState) state, vec3 direction, vec3 target, vec3 light, uint events) {
     KernelLightSample aim;
@@ -92,7 +98,7 @@ SHADING_FN void bidirectional_scatter(SHADING_INOUT(BidirectionalState) state) {
     }
     const vec2 u = bidirectional_random_pair(state, event, 3u);
     const float u_lobe = bidirectional_random_pair(state, event, 1u).y;
-    const Frame frame = frame_from_normal(state.vertex.shading_normal);
+    const Frame frame = surface_frame(state.vertex.surface, state.vertex.shading_normal);
     const vec3 toward = state.vertex.toward;
     const BsdfSample scattered = bsdf_sample_prepared(state.vertex.surface, state.vertex.lobes, to_local(frame, toward), vec3(u, u_lobe));
     if (scattered.pdf <= 0.0f) {
@@ -125,6 +131,7 @@ SHADING_FN void bidirectional_scatter(SHADING_INOUT(BidirectionalState) state) {
     }
     state.weights = weights_scattered(state.vertex.weights, scattered.pdf, backward.pdf, cosine);
     state.walk.throughput = throughput;
+    state.walk.absorption = vertex_absorption(state.vertex, direction);
     state.walk.scatter_pdf = scattered.pdf;
     state.walk.scatter_origin = state.vertex.position;
     state.walk.scatter_normal = vertex_light_side(state.vertex, direction);
@@ -133,7 +140,7 @@ SHADING_FN void bidirectional_scatter(SHADING_INOUT(BidirectionalState) state) {
     state.walk.stage = kernel_stage_scatter;
 }
 
-/// Puts the walk's vertex in hand. False where nothing is scattered there.
+/// Puts the walk's vertex in hand. False where nothing is scattered there. `at`: as seen from inside.
 SHADING_FN bool bidirectional_arrive(SHADING_INOUT(BidirectionalState) state, SHADING_IN(KernelHit) hit, SHADING_IN(KernelPoint) point,
                                      SHADING_IN(MaterialData) material, SHADING_IN(MaterialPoint) at) {
     state.vertex.position = point.position;
@@ -141,6 +148,7 @@ SHADING_FN bool bidirectional_arrive(SHADING_INOUT(BidirectionalState) state, SH
     state.vertex.geometric_normal = point.geometric_normal;
     state.vertex.two_sided = material.flags & material_flag_two_sided;
     state.vertex.surface = at.surface;
+    state.vertex.solid = at.surface.inside ? 1u : 0u;
     state.vertex.mapped_normal = kernel_mapped_normal(hit, point, material);
     state.vertex.events = state.walk.depth + 1u;
     state.vertex.throughput = state.walk.throughput;

@@ -14,6 +14,10 @@ layout(scalar, binding = 16) buffer LightVertices { SubpathVertex light_vertices
 /// The scene's sphere, then the cumulative probabilities of setting out from each emitter.
 layout(scalar, binding = 17) readonly buffer Emission { float emission[]; };
 
+/// What the test compares, beside the rays.
+struct Outcome { vec3 radiance; uint light_vertices; vec3 splat_light; uint splat_pixel; };
+layout(scalar, binding = 18) writeonly buffer Outcomes { Outcome outcomes[]; };
+
 vec4 scene_sphere() { return vec4(emission[0], emission[1], emission[2], emission[3]); }
 uint emission_count() { return emission.length() - 4u; }
 float fetch_emission_cumulative(uint i) { return emission[4u + i]; }
@@ -38,4 +42,5 @@ void main() {
     }
     states[i] = state;
     rays[i] = path_next_ray(state.walk);
+    outcomes[i] = Outcome(state.walk.radiance, state.light_vertices, state.splat_light, state.splat_pixel);
 }
