@@ -58,6 +58,8 @@ class Comparison:
     def __init__(self, arguments, scene, folder):
         self.arguments, self.scene, self.folder = arguments, scene, folder
         self.size = [int(n) for n in arguments.size.split("x")]
+        camera = json.load(open(scene))["cameras"][0]
+        self.ev100 = math.log2(camera["aperture_f"] ** 2 / camera["shutter_s"] * 100 / camera["iso"])
 
     def blender(self, options):
         script = os.path.join(HERE, "scene_in_cycles.py")
@@ -80,7 +82,7 @@ class Comparison:
         return output, json.load(open(stats))["seconds"]
 
     def compare(self, reference, test):
-        run = subprocess.run([self.arguments.heliodon, "compare", reference, test, "--ev100", str(self.arguments.ev100), "--json"],
+        run = subprocess.run([self.arguments.heliodon, "compare", reference, test, "--ev100", str(self.ev100), "--json"],
                              check=True, capture_output=True, text=True)
         return json.loads(run.stdout)
 
@@ -122,7 +124,6 @@ def main():
     parser.add_argument("--reference-spp", type=int, default=4096)
     parser.add_argument("--spp", type=lambda text: [int(n) for n in text.split(",")], default=[4, 16, 64, 256])
     parser.add_argument("--threads", type=int, default=os.cpu_count())
-    parser.add_argument("--ev100", type=float, default=10.0, help="exposure at which errors are measured")
     parser.add_argument("scenes", nargs="+")
     arguments = parser.parse_args()
     for scene in arguments.scenes:

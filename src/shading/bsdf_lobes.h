@@ -45,6 +45,8 @@ struct BsdfLobes {
     bool stretched;     // they differ
     vec3 metal_f0;      // of the Schlick term that stands for the metal where albedos are asked for
     vec3 film_base;     // normal reflectance of the dielectric under its film
+    vec3 film_metal;    // what the film shows of either at wo, as a mirror would
+    vec3 film_dielectric;
     float sheen_below;  // 1 − the most that the sheen returns at wo
     float probability_sheen;
 };
@@ -140,7 +142,9 @@ SHADING_FN vec3 bsdf_specular_albedo_prepared(SHADING_IN(Surface) s, SHADING_IN(
     vec3 glass = min(l.glass_specular * (f0 * l.split.x + l.split.y), vec3(1.0f)) * l.glass;
     vec3 albedo = metal + dielectric + glass;
     if (is_extended(s)) {
-        albedo = albedo * l.sheen_below;
+        // The Schlick term bounds a film's reflectance; its colour is that at this angle.
+        vec3 film = l.film_metal * l.metal + l.film_dielectric * l.dielectric;
+        albedo = mix(albedo, film * l.albedo + glass, s.iridescence) * l.sheen_below;
     }
     return albedo * (1.0f - l.coat_albedo);
 }
@@ -200,6 +204,8 @@ SHADING_FN void prepare_extended(SHADING_IN(Surface) s, vec3 wo, SHADING_INOUT(B
         l.alpha = sqrt(0.5f * dot(l.alphas, l.alphas));
     }
     if (s.iridescence > 0.0f) {
+        l.film_metal = fresnel_thin_film(wo.z, s.film_ior, s.film_thickness_nm, s.base_color);
+        l.film_dielectric = fresnel_thin_film(wo.z, s.film_ior, s.film_thickness_nm, l.dielectric_f0);
         l.metal_f0 = film_schlick_f0(s, s.base_color);
         l.dielectric_f0 = film_schlick_f0(s, l.dielectric_f0);
         l.dielectric_f90 = mix(l.dielectric_f90, 1.0f, s.iridescence);
@@ -323,7 +329,22 @@ SHADING_FN BsdfLobes bsdf_prepare(SHADING_IN(Surface) s, vec3 wo) {
     l.stretched = false;
     l.metal_f0 = vec3(0.0f);
     l.film_base = vec3(0.0f);
+    l.film_metal = vec3(0.0f);
+    l.film_dielectric = vec3(0.0f);
     l.sheen_below = 1.0f;
+    l.alpha = 1.0f;
+    l.coat_alpha = 1.0f;
+    l.eta = 1.0f;
+    l.metal = 0.0f;
+    l.dielectric = 0.0f;
+    l.glass = 0.0f;
+    l.dielectric_f0 = vec3(0.0f);
+    l.dielectric_f90 = 0.0f;
+    l.glass_specular = vec3(0.0f);
+    l.transmission_color = vec3(0.0f);
+    if (s.model == material_model_lambert) {
+        return l;
+    }
     prepare_substances(s, l);
     if (shading_extended && s.model == material_model_disney) {
         prepare_disney(s, wo, l);

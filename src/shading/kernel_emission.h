@@ -157,7 +157,8 @@ SHADING_FN void kernel_emit_from_surface(SHADING_INOUT(EmittedLight) emitted, SH
         by_area.kind = kernel_emitter_quad;
     }
     vec3 front;
-    const KernelHit hit = kernel_point_on_emitter(by_area, e.origin, u_position, emitted.position, front);
+    float seen_pdf;
+    const KernelHit hit = kernel_point_on_emitter(by_area, e.origin, u_position, emitted.position, front, seen_pdf);
     emitted.normal = front;
     const vec3 side = u_side * kernel_emitter_sides(e) < 1.0f ? front : -front;
     emitted.direction = to_world(frame_from_normal(side), sample_cosine_hemisphere(u_direction));

@@ -160,9 +160,11 @@ SHADING_FN vec3 kernel_emission(SHADING_IN(KernelHit) hit) {
            material_opacity_at(material, point.texcoord0, point.texcoord1, point.color.w);
 }
 
-/// A point of the emitter, as a hit would name it; `normal` is on its front side.
+/// A point of the emitter, as a hit would name it; `normal` is on its front side. `pdf`: its density per steradian where
+/// that comes with it, else 0.
 SHADING_FN KernelHit kernel_point_on_emitter(SHADING_IN(KernelEmitter) emitter, vec3 from, vec2 u, SHADING_OUT(vec3) position,
-                                             SHADING_OUT(vec3) normal) {
+                                             SHADING_OUT(vec3) normal, SHADING_OUT(float) pdf) {
+    pdf = 0.0f;
     KernelHit hit;
     hit.kind = kernel_hit_surface;
     hit.instance = emitter.index;
@@ -202,6 +204,7 @@ SHADING_FN KernelHit kernel_point_on_emitter(SHADING_IN(KernelEmitter) emitter, 
         const SphericalRectangle rectangle = spherical_rectangle(emitter.origin, emitter.edge0, emitter.edge1, from);
         if (kernel_sees_solid_angle(rectangle)) {
             hit.barycentric = sample_spherical_rectangle(rectangle, u);
+            pdf = 1.0f / rectangle.solid_angle;
         }
     }
     position = emitter.origin + emitter.edge0 * hit.barycentric.x + emitter.edge1 * hit.barycentric.y;
@@ -218,7 +221,8 @@ SHADING_FN KernelHit kernel_point_on_emitter(SHADING_IN(KernelEmitter) emitter, 
 SHADING_FN KernelLightSample kernel_sample_surface(SHADING_IN(KernelEmitter) emitter, vec3 from, vec2 u) {
     vec3 position;
     vec3 normal;
-    const KernelHit hit = kernel_point_on_emitter(emitter, from, u, position, normal);
+    float pdf;
+    const KernelHit hit = kernel_point_on_emitter(emitter, from, u, position, normal, pdf);
     KernelLightSample result;
     result.light = vec3(0.0f);
     result.pdf = 0.0f;
@@ -231,7 +235,7 @@ SHADING_FN KernelLightSample kernel_sample_surface(SHADING_IN(KernelEmitter) emi
     if (result.distance <= 0.0f || cosine == 0.0f || (cosine < 0.0f && !two_sided)) {
         return result;
     }
-    result.pdf = kernel_surface_pdf(emitter, from, position, normal);
+    result.pdf = pdf > 0.0f ? pdf : kernel_surface_pdf(emitter, from, position, normal);
     if (result.pdf <= 0.0f) {
         return result;
     }

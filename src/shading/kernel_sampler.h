@@ -53,6 +53,12 @@ SHADING_FN uint kernel_sobol_second_reversed(uint index) {
 /// [0, 1): the upper 24 bits, so that the result never rounds up to 1.
 SHADING_FN float kernel_unit_float(uint x) { return float(x >> 8u) * 5.9604644775390625e-8f; }
 
+/// The first of the two alone.
+SHADING_FN float kernel_sample_first(uint index_reversed, uint seed) {
+    const uint shuffled = kernel_reverse_bits(kernel_owen_reversed(index_reversed, kernel_hash(seed)));
+    return kernel_unit_float(kernel_reverse_bits(kernel_owen_reversed(shuffled, kernel_hash(seed ^ 0x68bc21ebu))));
+}
+
 /// The `index`-th point (given bit-reversed) of the pair of dimensions that `seed` names.
 SHADING_FN vec2 kernel_sample_pair(uint index_reversed, uint seed) {
     const uint shuffled = kernel_reverse_bits(kernel_owen_reversed(index_reversed, kernel_hash(seed)));

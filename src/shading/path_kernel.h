@@ -39,6 +39,9 @@ SHADING_FN vec2 kernel_random_pair(uint pixel_seed, uint sample_reversed, uint e
 SHADING_FN vec2 path_random_pair(SHADING_IN(PathState) path, uint event, uint pair) {
     return kernel_random_pair(path.pixel_seed, path.sample_reversed, event, pair);
 }
+SHADING_FN float path_random_first(SHADING_IN(PathState) path, uint event, uint pair) {
+    return kernel_sample_first(path.sample_reversed, path.pixel_seed + (4u * event + pair) * 0x9e3779b9u);
+}
 /// For decisions that come any number of times between two events.
 SHADING_FN float kernel_random_pass(uint pixel_seed, uint sample_reversed, uint pass) {
     return kernel_unit_float(kernel_hash_combine(kernel_hash_combine(pixel_seed, sample_reversed), pass));
@@ -221,11 +224,13 @@ SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec
     }
     vec3 throughput = path.throughput * scattered.weight;
     const float eta_scale = path.eta_scale * scattered.eta_scale;
-    // Russian roulette (Arvo & Kirk 1990) once the first few events are past, blind to the radiance scaling of
-    // refraction, which later leaving the medium undoes.
-    if (path.depth >= 4u) {
-        const float survival = min(max_component(throughput) / eta_scale, 0.98f);
-        if (path_random_pair(path, event + 1u, 0u).x >= survival) {
+    // Russian roulette (Arvo & Kirk 1990), blind to the radiance scaling of refraction, which later leaving the medium
+    // undoes. Paths keep a third of the weight they set out with: of the thresholds from 1/4 to 1 and of starting at any
+    // event from the first to the eighth, this gives the least variance × rays in a Cornell box (docs/performance.md).
+    const float most = path.depth < 8u ? 1.0f : 0.98f;  // where nothing absorbs, paths end all the same
+    const float survival = min(3.0f * max_component(throughput) / eta_scale, most);
+    if (survival < 1.0f) {
+        if (path_random_first(path, event + 1u, 0u) >= survival) {
             return;
         }
         throughput = throughput / survival;

@@ -37,6 +37,30 @@ SHADING_FN vec3 to_local(Frame frame, vec3 v) {
     return vec3(dot(v, frame.tangent), dot(v, frame.bitangent), dot(v, frame.normal));
 }
 
+/// atan(y, x) to 3·10⁻⁷ rad, without the library's call: the quotient of the smaller by the larger is brought within
+/// ±tan(π/8), where Moshier's (Cephes, atanf) polynomial stands for the arctangent.
+SHADING_FN float angle_of(float y, float x) {
+    const float ax = abs(x);
+    const float ay = abs(y);
+    const float larger = max(max(ax, ay), 1.0e-37f);
+    const float q = min(ax, ay) / larger;
+    const bool beyond = q > 0.41421356f;
+    const float t = beyond ? (q - 1.0f) / (q + 1.0f) : q;
+    const float z = t * t;
+    float angle = (((8.05374449538e-2f * z - 1.38776856032e-1f) * z + 1.99777106478e-1f) * z - 3.33329491539e-1f) * z * t + t;
+    angle = beyond ? angle + 0.25f * pi : angle;
+    angle = ay > ax ? 0.5f * pi - angle : angle;
+    angle = x < 0.0f ? pi - angle : angle;
+    return y < 0.0f ? -angle : angle;
+}
+
+/// Cosine and sin of an angle of at most π/4 to either side, by their series to 10⁻⁸.
+SHADING_FN vec2 cos_sin_of_octant(float angle) {
+    const float z = angle * angle;
+    return vec2(1.0f - z * (0.5f - z * (4.16666667e-2f - z * (1.38888889e-3f - z * 2.48015873e-5f))),
+                angle * (1.0f - z * (1.66666667e-1f - z * (8.33333333e-3f - z * (1.98412698e-4f - z * 2.75573192e-6f)))));
+}
+
 /// Uniform on the unit disk, concentric map: Shirley & Chiu 1997.
 SHADING_FN vec2 sample_disk(vec2 u) {
     float x = 2.0f * u.x - 1.0f;
@@ -44,9 +68,11 @@ SHADING_FN vec2 sample_disk(vec2 u) {
     if (x == 0.0f && y == 0.0f) {
         return vec2(0.0f);
     }
-    float radius = abs(x) > abs(y) ? x : y;
-    float angle = abs(x) > abs(y) ? 0.25f * pi * (y / x) : 0.5f * pi - 0.25f * pi * (x / y);
-    return vec2(radius * cos(angle), radius * sin(angle));
+    if (abs(x) > abs(y)) {
+        return x * cos_sin_of_octant(0.25f * pi * (y / x));
+    }
+    const vec2 across = cos_sin_of_octant(0.25f * pi * (x / y));
+    return vec2(y * across.y, y * across.x);
 }
 
 /// Density cos θ/π about +z (Malley's method: the disk projected up).

@@ -21,9 +21,12 @@ struct SphericalRectangle {
     float solid_angle;  // sr
 };
 
-/// Angle between a face normal and the next one's opposite. By the arctangent, since the arccosine loses
-/// half its digits where the viewpoint is near the plane.
-SHADING_FN float spherical_corner(vec3 n, vec3 next) { return atan(length(cross(n, next)), -dot(n, next)); }
+/// Argument in [0, 2π) of the complex number, whose angles are as good near the axes as between them.
+SHADING_FN float turn_of(vec2 number) {
+    const float angle = angle_of(number.y, number.x);
+    return angle < 0.0f ? angle + 2.0f * pi : angle;
+}
+SHADING_FN vec2 complex_product(vec2 a, vec2 b) { return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x); }
 
 /// Seen from `from`: the corner `origin` and two perpendicular edges.
 SHADING_FN SphericalRectangle spherical_rectangle(vec3 origin, vec3 edge0, vec3 edge1, vec3 from) {
@@ -43,15 +46,22 @@ SHADING_FN SphericalRectangle spherical_rectangle(vec3 origin, vec3 edge0, vec3 
     r.y0 = dot(d, r.y);
     r.x1 = r.x0 + length0;
     r.y1 = r.y0 + length1;
-    // Normals of the planes through the viewpoint and each edge; the y and x parts are the plane's z0.
-    const vec3 n0 = vec3(0.0f, r.z0, -r.y0) * inversesqrt(r.z0 * r.z0 + r.y0 * r.y0);
-    const vec3 n1 = vec3(-r.z0, 0.0f, r.x1) * inversesqrt(r.z0 * r.z0 + r.x1 * r.x1);
-    const vec3 n2 = vec3(0.0f, -r.z0, r.y1) * inversesqrt(r.z0 * r.z0 + r.y1 * r.y1);
-    const vec3 n3 = vec3(r.z0, 0.0f, -r.x0) * inversesqrt(r.z0 * r.z0 + r.x0 * r.x0);
-    r.b0 = n0.z;
-    r.b1 = n2.z;
-    r.k = 2.0f * pi - spherical_corner(n2, n3) - spherical_corner(n3, n0);
-    r.solid_angle = spherical_corner(n0, n1) + spherical_corner(n1, n2) - r.k;
+    // The planes through the viewpoint and each edge meet at a corner (x, y) under the argument of ±xy + i |z0| √(x² + y² + z0²),
+    // from the cross and dot products of their normals; arguments add where complex numbers multiply.
+    const float z2 = r.z0 * r.z0;
+    const float x02 = r.x0 * r.x0 + z2;
+    const float x12 = r.x1 * r.x1 + z2;
+    const float y02 = r.y0 * r.y0;
+    const float y12 = r.y1 * r.y1;
+    const vec2 corner_10 = vec2(r.x1 * r.y0, -r.z0 * sqrt(x12 + y02));
+    const vec2 corner_11 = vec2(-r.x1 * r.y1, -r.z0 * sqrt(x12 + y12));
+    const vec2 corner_01 = vec2(r.x0 * r.y1, -r.z0 * sqrt(x02 + y12));
+    const vec2 corner_00 = vec2(-r.x0 * r.y0, -r.z0 * sqrt(x02 + y02));
+    const vec2 left = complex_product(corner_01, corner_00);
+    r.b0 = -r.y0 * inversesqrt(z2 + y02);
+    r.b1 = r.y1 * inversesqrt(z2 + y12);
+    r.k = 2.0f * pi - turn_of(left);
+    r.solid_angle = turn_of(complex_product(complex_product(corner_10, corner_11), left));
     return r;
 }
 
