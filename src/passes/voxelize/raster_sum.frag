@@ -6,8 +6,13 @@
 layout(set = 0, binding = 16, std430) readonly buffer Numbers { VoxelHeader header; uint voxel_number[]; };
 layout(set = 0, binding = 18, std430) buffer Records { uint records[]; };
 
-uint face_sums(uint face) { return face * voxel_field_count; }
-void add_to_sum(uint place, uint amount) { atomicAdd(records[place], amount); }
+struct VoxelSums {
+    uint first;
+    uint stride;
+};
+VoxelSums find_sums(uint record) { return VoxelSums(record * voxel_faces * voxel_field_count, voxel_field_count); }
+void add_to_record(uint word, uint amount) { atomicAdd(records[word], amount); }
+void add_to_sum(uint place, uint amount) { add_to_record(place, amount); }
 #include "passes/voxelize/voxel_sum.glsl"
 #include "passes/voxelize/voxel_column.glsl"
 
@@ -18,6 +23,6 @@ void main() {
     do {
         const uint number = voxel_number[voxel_place(voxel)];
         if (number != 0u && number != voxel_without_room && near_plane(triangle, voxel))
-            sum(triangle, voxel, number - 1u, 0u);
+            sum(triangle, voxel, number - 1u);
     } while (next_voxel(triangle, voxel));
 }

@@ -5,7 +5,10 @@
 #include "passes/voxelize/voxel_walk.glsl"
 
 const uint piece_invocations = 64u;  // of the workgroup
-const uint most_pieces = piece_invocations * small_triangle_voxels;
+// Voxels of each triangle in a list: few triangles have more. Of a box of eight at most the second four lie nowhere before
+// the first of them.
+const uint turn_voxels = small_triangle_voxels / 2u;
+const uint most_pieces = piece_invocations * turn_voxels;
 
 shared uvec2 piece_source[piece_invocations];  // instance, primitive
 shared vec3 piece_p0[piece_invocations];
@@ -35,7 +38,7 @@ void list_pieces(VoxelTriangle triangle, inout ivec3 voxel, inout bool left) {
         const ivec3 low = voxel;
         // A bit a voxel: counted first, so that one atomic operation makes room for all.
         uint near = 0u;
-        for (uint i = 0u; i < small_triangle_voxels && left; ++i) {
+        for (uint i = 0u; i < turn_voxels && left; ++i) {
             near |= uint(near_plane(triangle, voxel)) << i;
             left = next_voxel(triangle, voxel);
         }

@@ -111,10 +111,10 @@ struct VoxelizeConstants {
 SHADING_CONST uint voxel_faces = 6u;
 SHADING_CONST uint voxel_field_area = 0u;  // projected, in faces of a voxel
 SHADING_CONST uint voxel_field_albedo = 1u;
-SHADING_CONST uint voxel_field_emission = 4u;
-SHADING_CONST uint voxel_field_emissive_area = 7u;
-SHADING_CONST uint voxel_field_normal = 8u;     // signed
-SHADING_CONST uint voxel_field_position = 11u;  // in the voxel, 0 … 1
+SHADING_CONST uint voxel_field_normal = 4u;    // signed
+SHADING_CONST uint voxel_field_position = 7u;  // in the voxel, 0 … 1
+SHADING_CONST uint voxel_field_emission = 10u;  // from here on nothing but zeros for what does not emit
+SHADING_CONST uint voxel_field_emissive_area = 13u;
 SHADING_CONST uint voxel_field_count = 14u;
 SHADING_CONST float voxel_fixed_one = 1048576.0f;  // 2²⁰: 4095 voxel faces of area before a sum is full
 

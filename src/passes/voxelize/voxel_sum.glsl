@@ -1,6 +1,8 @@
 // Adds what a voxel holds of a triangle to the voxel's record. The includer defines, before this,
-//   uint face_sums(uint face)  place of the first sum of a face, numbered through all records
+//   VoxelSums  struct { uint first; uint stride; }: where a voxel's sums stand, and how many places a face takes
+//   VoxelSums find_sums(uint record)
 //   void add_to_sum(uint place, uint amount)
+//   void add_to_record(uint word, uint amount)
 #ifndef HELIODON_VOXEL_SUM_GLSL
 #define HELIODON_VOXEL_SUM_GLSL
 #include "passes/common/hash.glsl"
@@ -9,35 +11,28 @@
 
 layout(set = 0, binding = 13, std430) readonly buffer Surfaces { VoxelSurface even_surfaces[]; };  // by instance
 
+/// No piece shows a voxel's face more than three faces' area: nothing comes near the ends of an integer.
+uint fixed_point(float value, float rounding) { return uint(int(floor(value * voxel_fixed_one + rounding))); }
+
 void add(uint place, float value, float rounding) {
-    const int amount = int(floor(clamp(value, -2047.0f, 2047.0f) * voxel_fixed_one + rounding));
-    if (amount != 0) add_to_sum(place, uint(amount));
+    const uint amount = fixed_point(value, rounding);
+    if (amount != 0u) add_to_sum(place, amount);
+}
+void add(uint place, vec3 values, float rounding) {
+    add(place, values.x, rounding);
+    add(place + 1u, values.y, rounding);
+    add(place + 2u, values.z, rounding);
 }
 
-/// One side's share of the record's face; a black one has no colour. Neighbouring invocations often add to the same face:
-/// each begins with another of its fields, by `turn`, so that they do not wait for each other.
-void add_to_face(uint face, VoxelSurface surface, bool black, vec3 normal, vec3 position, float area, uint turn, float rounding) {
-    const float shown = area * surface.cover;
-    const uint place = face_sums(face);
-    add(place + voxel_field_area, shown, rounding);
-    uint group = turn / 3u % 3u;
-    for (uint i = 0u; i < 3u; ++i) {
-        const vec3 sums = group == 0u ? area * surface.albedo : shown * (group == 1u ? normal : clamp(position, 0.0f, 1.0f));
-        const uint field = group == 0u ? voxel_field_albedo : group == 1u ? voxel_field_normal : voxel_field_position;
-        uint axis = turn % 3u;
-        for (uint j = 0u; j < 3u && !(black && group == 0u); ++j) {
-            add(place + field + axis, axis == 0u ? sums.x : axis == 1u ? sums.y : sums.z, rounding);
-            axis = axis == 2u ? 0u : axis + 1u;
-        }
-        group = group == 2u ? 0u : group + 1u;
-    }
-    if (black || !any(greaterThan(surface.emission, vec3(0.0f)))) return;
-    for (uint c = 0u; c < 3u; ++c) add(place + voxel_field_emission + c, area * surface.emission[c], rounding);
-    add(place + voxel_field_emissive_area, area * surface.opacity, rounding);
+/// What emits is seldom: its sums go to the record itself.
+void add_emission(uint face, vec3 emission, float area, float rounding) {
+    const uint first = face * voxel_field_count;
+    for (uint c = 0u; c < 3u; ++c) add_to_record(first + voxel_field_emission + c, fixed_point(min(emission[c], 2047.0f), rounding));
+    add_to_record(first + voxel_field_emissive_area, fixed_point(area, rounding));
 }
 
-/// `record`: the voxel's; `turn`: as in add_to_face().
-void sum(VoxelTriangle triangle, ivec3 voxel, uint record, uint turn) {
+/// `record`: the voxel's.
+void sum(VoxelTriangle triangle, ivec3 voxel, uint record) {
     const vec4 part = centroid_and_area(triangle.p0, triangle.p1, triangle.p2, vec3(voxel));
     if (!(part.w > 0.0f)) return;
     VoxelSurface surface;
@@ -52,6 +47,8 @@ void sum(VoxelTriangle triangle, ivec3 voxel, uint record, uint turn) {
     const uvec3 in_lattice = uvec3(voxel + push.grid.base);
     const uint of_triangle = pcg_hash(triangle.primitive + pcg_hash(triangle.instance));
     const float rounding = unit_interval(pcg_hash(in_lattice.x + pcg_hash(in_lattice.y + pcg_hash(in_lattice.z + of_triangle))));
+    const vec3 position = clamp(part.xyz, 0.0f, 1.0f);
+    const VoxelSums sums = find_sums(record);
     // The faces that see a side of it, a bit each: a loop over them alone keeps neighbouring invocations together.
     uint faces = 0u;
     for (uint axis = 0u; axis < 3u; ++axis) {
@@ -64,8 +61,16 @@ void sum(VoxelTriangle triangle, ivec3 voxel, uint record, uint turn) {
         faces &= faces - 1u;
         const float along = triangle.normal[face >> 1u];
         const bool rear = (along > 0.0f) == ((face & 1u) != 0u);
-        add_to_face(record * voxel_faces + face, surface, rear && !two_sided, rear ? -triangle.normal : triangle.normal, part.xyz,
-                    part.w * abs(along), turn, rounding);
+        const bool black = rear && !two_sided;  // and then without a colour
+        const float area = part.w * abs(along);
+        const float shown = area * surface.cover;
+        const uint place = sums.first + face * sums.stride;
+        add(place + voxel_field_area, shown, rounding);
+        if (!black) add(place + voxel_field_albedo, area * surface.albedo, rounding);
+        add(place + voxel_field_normal, (rear ? -shown : shown) * triangle.normal, rounding);
+        add(place + voxel_field_position, shown * position, rounding);
+        if (!black && any(greaterThan(surface.emission, vec3(0.0f))))
+            add_emission(record * voxel_faces + face, area * surface.emission, area * surface.opacity, rounding);
     }
 }
 
