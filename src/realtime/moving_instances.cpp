@@ -17,14 +17,16 @@ bool same(const T& a, const T& b) {
 }
 
 bool uses_any(const MaterialData& material, const std::vector<std::uint32_t>& textures) {
-    // They follow one another.
-    constexpr std::size_t first = offsetof(MaterialData, base_color_texture), last = offsetof(MaterialData, clearcoat_roughness_texture);
-    std::array<TextureRef, (last - first) / sizeof(TextureRef) + 1> uses;
-    std::memcpy(uses.data(), reinterpret_cast<const std::byte*>(&material) + first, sizeof(uses));
-    return std::any_of(uses.begin(), uses.end(), [&](const TextureRef& use) {
-        return use.texture_index != shading::no_texture &&
-               std::binary_search(textures.begin(), textures.end(), use.texture_index);
-    });
+    const auto any_between = [&](std::size_t first, std::size_t last) {  // those follow one another
+        for (std::size_t at = first; at <= last; at += sizeof(TextureRef)) {
+            TextureRef use;
+            std::memcpy(&use, reinterpret_cast<const std::byte*>(&material) + at, sizeof(use));
+            if (use.texture_index != shading::no_texture && std::binary_search(textures.begin(), textures.end(), use.texture_index)) return true;
+        }
+        return false;
+    };
+    return any_between(offsetof(MaterialData, base_color_texture), offsetof(MaterialData, clearcoat_roughness_texture)) ||
+           any_between(offsetof(MaterialData, anisotropy_texture), offsetof(MaterialData, film_thickness_texture));
 }
 
 bool visible(const shading::InstanceData& instance) { return (instance.flags & shading::instance_flag_visible) != 0; }

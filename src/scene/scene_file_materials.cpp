@@ -33,11 +33,12 @@ void read_factors(ObjectReader& object, Material& material) {
 }
 
 /// Refuses `keys` in materials of any other model than these.
-void allow(ObjectReader& object, const Material& material, std::initializer_list<std::string_view> keys,
+void allow(const ObjectReader& object, const Material& material, std::initializer_list<const char*> keys,
            std::initializer_list<MaterialModel> models, std::string_view names) {
     if (std::find(models.begin(), models.end(), material.model) != models.end()) return;
-    for (const std::string_view key : keys)
-        if (const auto found = object.find(key)) throw Refusal{found->path(), fmt::format("expected with the model {} alone", names)};
+    for (const char* key : keys)
+        if (object.cursor().json().contains(key))
+            throw Refusal{object.cursor().path() + "." + key, fmt::format("expected with the model {} alone", names)};
 }
 
 void read_disney(ObjectReader& object, Material& material) {
@@ -54,8 +55,8 @@ void read_disney(ObjectReader& object, Material& material) {
 /// `metal` by name, or `eta` and `k`.
 void read_conductor(ObjectReader& object, Material& material) {
     allow(object, material, {"metal", "eta", "k"}, {MaterialModel::conductor}, "\"conductor\"");
-    if (material.model != MaterialModel::conductor) return;
     const auto metal = object.find("metal"), eta = object.find("eta"), k = object.find("k");
+    if (material.model != MaterialModel::conductor) return;
     if (metal && (eta || k)) throw Refusal{metal->path(), "expected either metal, or eta and k, found both"};
     if (metal) {
         material.metal = metal->one_of<NamedMetal>({{"gold", NamedMetal::gold}, {"silver", NamedMetal::silver},

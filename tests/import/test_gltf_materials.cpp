@@ -105,6 +105,42 @@ TEST(GltfMaterials, ExtensionsArrive) {
     EXPECT_FLOAT_EQ(material.clearcoat_roughness, 0.1f);
 }
 
+TEST(GltfMaterials, LayersAndVolumesArrive) {
+    MaterialFile file;
+    const int texture = file.add_texture(one_texel(10, 20, 30, 40));
+    const Material& material =
+        file.load({{"extensions",
+                    {{"KHR_materials_anisotropy", {{"anisotropyStrength", 0.6}, {"anisotropyRotation", 1.5}}},
+                     {"KHR_materials_sheen", {{"sheenColorFactor", {0.1, 0.2, 0.3}}, {"sheenRoughnessFactor", 0.4}}},
+                     {"KHR_materials_iridescence", {{"iridescenceFactor", 0.5}, {"iridescenceIor", 1.8}, {"iridescenceThicknessMaximum", 700},
+                                                    {"iridescenceThicknessTexture", {{"index", texture}}}}},
+                     {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                     {"KHR_materials_volume", {{"thicknessFactor", 0.1}, {"attenuationColor", {0.9, 0.8, 0.7}}, {"attenuationDistance", 0.25}}}}}});
+    EXPECT_FLOAT_EQ(material.anisotropy, 0.6f);
+    EXPECT_FLOAT_EQ(material.anisotropy_rotation_rad, 1.5f);
+    EXPECT_EQ(material.sheen_color, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_FLOAT_EQ(material.sheen_roughness, 0.4f);
+    EXPECT_FLOAT_EQ(material.iridescence, 0.5f);
+    EXPECT_FLOAT_EQ(material.iridescence_ior, 1.8f);
+    EXPECT_EQ(material.iridescence_thickness_nm, 700);
+    EXPECT_EQ(material.iridescence_thinnest_nm, 100);
+    EXPECT_EQ(file.texel(material.iridescence_thickness_texture)[1], 20);
+    EXPECT_EQ(material.attenuation_color, glm::vec3(0.9f, 0.8f, 0.7f));
+    EXPECT_FLOAT_EQ(material.attenuation_distance_m, 0.25f);
+    EXPECT_FALSE(material.thin_walled);
+    EXPECT_TRUE(file.builder.warned("whatever thickness"));
+}
+
+TEST(GltfMaterials, WhatIsTransmissiveWithoutAVolumeIsASheet) {
+    for (const Json& extensions : {Json{{"KHR_materials_transmission", {{"transmissionFactor", 1}}}},
+                                   Json{{"KHR_materials_transmission", {{"transmissionFactor", 1}}}, {"KHR_materials_volume", Json::object()}}}) {
+        MaterialFile file;
+        EXPECT_TRUE(file.load({{"extensions", extensions}}).thin_walled) << extensions;
+    }
+    MaterialFile opaque;
+    EXPECT_FALSE(opaque.load(Json::object()).thin_walled);
+}
+
 TEST(GltfMaterials, UnlitMaterialsShowAsADisplayWould) {
     MaterialFile file;
     const Material& material = file.load({{"extensions", {{"KHR_materials_unlit", Json::object()}}}});

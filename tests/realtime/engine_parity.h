@@ -14,6 +14,7 @@ protected:
         int size = 128;
         int realtime_samples = 64;
         int path_samples = 64;
+        int height = 0;  // 0: square
     };
     struct Limits {
         double median, relmse, flip;
@@ -26,7 +27,8 @@ protected:
         Camera camera;
         scene.cameras().each([&](CameraId, const Camera& first) { camera = first; });
         RealtimeOptions options;
-        options.width = options.height = effort.size;
+        options.width = effort.size;
+        options.height = effort.height ? effort.height : effort.size;
         options.samples = effort.realtime_samples;
         options.environment = false;
         Picture picture = render(scene, camera, options);
@@ -34,7 +36,8 @@ protected:
         const auto updated = tracer.update(scene);
         if (!updated) ADD_FAILURE() << updated.error().text();
         PathOptions path;
-        path.width = path.height = effort.size;
+        path.width = options.width;
+        path.height = options.height;
         path.samples_per_pixel = effort.path_samples;
         path.max_depth = 1;
         path.environment = false;

@@ -154,7 +154,8 @@ const std::vector<BadFile>& bad_files() {
          "$.cameras[0]: expected far_m beyond near_m (or 0: infinite), found it nearer", Schema::accepts},
 
         {"UnknownModel", material(R"("model": "phong")"),
-         "$.materials.m.model: expected one of \"standard\", \"lambert\", \"unlit\", \"thin\", found \"phong\""},
+         "$.materials.m.model: expected one of \"standard\", \"lambert\", \"unlit\", \"thin\", \"disney\", \"oren_nayar\", "
+         "\"conductor\", \"dielectric\", found \"phong\""},
         {"AlbedoAboveOne", material(R"("base_color": [1, 1.01, 1])"),
          "$.materials.m.base_color[1]: expected a number at least 0 and at most 1, found 1.01"},
         {"IorBelowOne", material(R"("ior": 0.9)"), "$.materials.m.ior: expected a number at least 1, found 0.9"},
@@ -163,7 +164,26 @@ const std::vector<BadFile>& bad_files() {
          "ior, transmission, emission_nits, specular, specular_color, clearcoat, clearcoat_roughness, opacity, "
          "alpha_cutoff, two_sided, normal_scale, bump_scale_m, occlusion_strength, base_color_texture, "
          "roughness_texture, metallic_texture, occlusion_texture, normal_texture, bump_texture, emission_texture, "
-         "opacity_texture, transmittance, reflectance, alpha_mode"},
+         "opacity_texture, transmittance, reflectance, subsurface, specular_tint, anisotropic, sheen, sheen_tint, "
+         "clearcoat_gloss, metal, eta, k, anisotropy, anisotropy_rotation_deg, sheen_color, sheen_roughness, iridescence, "
+         "iridescence_ior, iridescence_thickness_nm, thin_walled, attenuation_color, attenuation_distance_m, sigma_deg, "
+         "alpha_mode"},
+        {"ConductorOfNoIndex", material(R"("model": "conductor", "eta": 0.2)"),
+         "$.materials.m: expected a conductor's metal, or its eta and k"},
+        {"ConductorOfTwoIndices", material(R"("model": "conductor", "metal": "gold", "eta": 0.2, "k": 3)"),
+         "$.materials.m.metal: expected either metal, or eta and k, found both"},
+        {"UnknownMetal", material(R"("model": "conductor", "metal": "mithril")"),
+         "$.materials.m.metal: expected one of \"gold\", \"silver\", \"copper\", \"aluminium\", \"iron\", \"chromium\", found \"mithril\""},
+        {"MetalOfNoConductor", material(R"("metal": "gold")"), "$.materials.m.metal: expected with the model \"conductor\" alone"},
+        {"DisneysSheenElsewhere", material(R"("sheen": 1)"), "$.materials.m.sheen: expected with the model \"disney\" alone"},
+        {"SheenColorOfLambert", material(R"("model": "lambert", "sheen_color": [1, 1, 1])"),
+         "$.materials.m.sheen_color: expected with the model \"standard\" alone"},
+        {"AttenuationOfMetal", material(R"("model": "conductor", "metal": "iron", "attenuation_distance_m": 1)"),
+         "$.materials.m.attenuation_distance_m: expected with the model \"standard\" or \"dielectric\" alone"},
+        {"AttenuationOverNoDistance", material(R"("attenuation_distance_m": 0)"),
+         "$.materials.m.attenuation_distance_m: expected a number above 0, found 0"},
+        {"SigmaOfLambert", material(R"("model": "lambert", "sigma_deg": 20)"),
+         "$.materials.m.sigma_deg: expected with the model \"oren_nayar\" alone"},
         {"PaneWithoutTransmittance", material(R"("model": "thin")"),
          "$.materials.m: expected the key \"transmittance\", found none"},
         {"TransmittanceOfNoPane", material(R"("transmittance": 0.9)"),

@@ -252,6 +252,45 @@ TEST(SceneFile, ReadsPanes) {
     EXPECT_FLOAT_EQ(film.transmittance[1], 0.0f);
 }
 
+TEST(SceneFile, ReadsEveryModelsOwnKeys) {
+    const Scene scene = parsed(R"({"heliodon": 1, "materials": {
+        "layers": {"anisotropy": 0.1, "anisotropy_rotation_deg": 90, "sheen_color": [0.2,0.3,0.4], "sheen_roughness": 0.5,
+                   "iridescence": 0.6, "iridescence_ior": 1.7, "iridescence_thickness_nm": 350, "transmission": 1,
+                   "thin_walled": true, "attenuation_color": [0.7,0.8,0.9], "attenuation_distance_m": 0.02},
+        "disney": {"model": "disney", "subsurface": 0.1, "specular_tint": 0.2, "anisotropic": 0.3, "sheen": 0.4,
+                   "sheen_tint": 0.6, "clearcoat": 0.7, "clearcoat_gloss": 0.8},
+        "plaster": {"model": "oren_nayar", "sigma_deg": 20}, "clay": {"model": "oren_nayar"},
+        "gold": {"model": "conductor", "metal": "gold"}, "alloy": {"model": "conductor", "eta": [1,2,3], "k": 4},
+        "water": {"model": "dielectric", "ior": 1.33}}})");
+    const Material& layers = material_of(scene, "layers");
+    EXPECT_EQ(layers.anisotropy, 0.1f);
+    EXPECT_FLOAT_EQ(layers.anisotropy_rotation_rad, glm::radians(90.0f));
+    EXPECT_EQ(layers.sheen_color, glm::vec3(0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(layers.sheen_roughness, 0.5f);
+    EXPECT_EQ(layers.iridescence, 0.6f);
+    EXPECT_EQ(layers.iridescence_ior, 1.7f);
+    EXPECT_EQ(layers.iridescence_thickness_nm, 350);
+    EXPECT_TRUE(layers.thin_walled);
+    EXPECT_EQ(layers.attenuation_color, glm::vec3(0.7f, 0.8f, 0.9f));
+    EXPECT_EQ(layers.attenuation_distance_m, 0.02f);
+    const Material& disney = material_of(scene, "disney");
+    EXPECT_EQ(disney.model, MaterialModel::disney);
+    EXPECT_EQ(disney.subsurface, 0.1f);
+    EXPECT_EQ(disney.specular_tint, 0.2f);
+    EXPECT_EQ(disney.anisotropy, 0.3f);
+    EXPECT_EQ(disney.sheen, 0.4f);
+    EXPECT_EQ(disney.sheen_tint, 0.6f);
+    EXPECT_EQ(disney.clearcoat_gloss, 0.8f);
+    EXPECT_EQ(disney.specular, 0.5f) << "Disney's own default";
+    EXPECT_EQ(disney.roughness, 0.5f) << "Disney's own default";
+    EXPECT_FLOAT_EQ(material_of(scene, "plaster").sigma_rad.value(), glm::radians(20.0f));
+    EXPECT_FALSE(material_of(scene, "clay").sigma_rad);
+    EXPECT_EQ(material_of(scene, "gold").metal, NamedMetal::gold);
+    EXPECT_EQ(material_of(scene, "alloy").conductor_eta, glm::vec3(1, 2, 3));
+    EXPECT_EQ(material_of(scene, "alloy").conductor_k, glm::vec3(4));
+    EXPECT_EQ(material_of(scene, "water").model, MaterialModel::dielectric);
+}
+
 TEST(SceneFile, AGridOfSensorsStandsInTheMiddlesOfItsCellsRowByRow) {
     const Scene scene = parsed(R"({"heliodon": 1, "sensors": [
         {"name": "desk", "type": "grid", "origin": [1,0.8,2], "u": [0,0,4], "v": [2,0,0], "counts": [4,2], "offset_m": 0.01},
