@@ -21,10 +21,10 @@ struct Scale {
     [[nodiscard]] int level(double value) const { return static_cast<int>(std::floor(value / step)); }
 };
 
-/// Some eight steps of 1, 2 or 5 times a power of ten.
+/// Some ten steps of 1, 2 or 5 times a power of ten.
 Scale scale_of(double most) {
     if (!(most > 0) || !std::isfinite(most)) return {};
-    constexpr double steps = 8;
+    constexpr double steps = 10;
     const double rough = most / steps, power = std::pow(10, std::floor(std::log10(rough)));
     double step = 10 * power;
     for (const double factor : {5.0, 2.0, 1.0})
@@ -137,7 +137,7 @@ std::vector<std::string> caption(const GridReadings& grid) {
     return {fmt::format("{}: {:.3g} m x {:.3g} m, {} x {} points", grid.name, glm::length(grid.grid.u), glm::length(grid.grid.v),
                         grid.grid.counts.x, grid.grid.counts.y),
             fmt::format("mean {:.4g} lx, least {:.4g}, most {:.4g}, least/mean {:.2f}", mean, least, most, mean > 0 ? least / mean : 0),
-            fmt::format("95 % half-width of a point at most {:.2g} lx", half_width)};
+            fmt::format("95 % half-width of a point at most {:.3g} lx", half_width)};
 }
 
 }  // namespace

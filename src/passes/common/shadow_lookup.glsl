@@ -73,13 +73,16 @@ uint shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, vec2 posi
     return at_receiver <= plane.own_depth + stored_bias + rounding ? tap_lit : tap_blocked;
 }
 
+// As shadow_filter_nearest, of a receiver that stands off every surface: what lies beyond it is not between it and the light.
+const uint shadow_filter_free = 2u;
+
 float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode) {
     const ShadowViewData view = shadow_views[view_index];
     const int size = int(view.size);
     const ReceiverPlane plane = receiver_plane(view, point, normal);
     if (any(greaterThan(abs(plane.at), vec2(1.0f)))) return 1.0f;  // outside what the light's map covers
     const vec2 position = (plane.at * vec2(0.5f, -0.5f) + 0.5f) * float(size);
-    const bool nearest = filter_mode == shadow_filter_nearest;
+    const bool nearest = filter_mode != shadow_filter_percentage_closer;
     // Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels, the nearest
     // first, or that one alone. Texels that look past the edge of the receiver's surface have no say: through
     // them light would leak along the seams of walls.
@@ -92,10 +95,10 @@ float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode)
         const ivec2 corner = ivec2(i & 1, i >> 1);
         const vec2 share = mix(1.0f - abs(offset), abs(offset), vec2(corner));
         const uint tap = shadow_tap(view, plane, texel + corner * side, position, size);
-        if (tap == tap_beyond) continue;
+        if (tap == tap_beyond && filter_mode != shadow_filter_free) continue;
         const float weight = nearest ? 1.0f : share.x * share.y;
         known += weight;
-        lit += tap == tap_lit ? weight : 0.0f;
+        lit += tap == tap_blocked ? 0.0f : weight;
         if (nearest) break;
     }
     return known > 0.0f ? lit / known : 1.0f;

@@ -8,12 +8,12 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 12, std430) buffer Sensors { SensorData sensors[]; };
 layout(push_constant) uniform Push { SensorConstants push; };
 
-/// Lights with an extent come here as one of their points; the caller averages over many.
+/// Lights with an extent come here as one of their points, and the shadow grids move; the caller averages over many.
 vec3 illuminance_from(LightData light, vec3 position, vec3 normal) {
     const LightSample arriving = any_light_sample(light, position, vec2(0.5f));
     const vec3 unshadowed = arriving.value * max(dot(arriving.direction, normal), 0.0f);
     if (unshadowed == vec3(0.0f)) return unshadowed;
-    return unshadowed * light_reaching(light, position, normal, shadow_filter_percentage_closer);
+    return unshadowed * light_reaching(light, position, normal, shadow_filter_free);
 }
 
 void main() {
