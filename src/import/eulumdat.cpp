@@ -141,12 +141,13 @@ void warn_of_ratios(const Declared& declared, const Luminaire& luminaire, std::v
 void read_web(PhotometricText& text, Symmetry symmetry, int c_count, int g_count, double candela_a_value, Luminaire& luminaire,
               std::vector<std::string>& doubts) {
     constexpr int direct_ratios = 10;
-    (void)text.numbers("direct ratio", direct_ratios, true);
+    for (int i = 0; i < direct_ratios; ++i) (void)text.number_line("a direct ratio", 0);
     const std::vector<double> c_deg = text.numbers("C-plane", static_cast<std::size_t>(c_count), true);
     check_rising(text, "C", c_deg, 360);
     const std::vector<double> planes_deg = given_planes(text, symmetry, c_deg);
     const std::vector<double> g_deg = text.numbers("angle", static_cast<std::size_t>(g_count), true);
     check_rising(text, "gamma", g_deg, 180);
+    if (auto doubt = doubt_of_polar_angles(g_deg)) doubts.push_back(*std::move(doubt));
     const std::vector<double> values = text.numbers("intensity", planes_deg.size() * g_deg.size(), true);
     const auto negative = std::count_if(values.begin(), values.end(), [](double value) { return value < 0; });
     if (negative > 0) doubts.push_back(fmt::format("{} intensities are negative: taken as 0", negative));

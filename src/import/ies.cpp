@@ -159,6 +159,7 @@ Angles read_angles(PhotometricText& text, PhotometryType type, int vertical, int
     angles.horizontal_deg = text.numbers("horizontal angle", static_cast<std::size_t>(horizontal), false);
     check_rising(text, "horizontal", angles.horizontal_deg, is_c ? 0 : -90, is_c ? 360 : 90);
     if (is_c) {
+        if (auto doubt = doubt_of_polar_angles(angles.vertical_deg)) doubts.push_back(*std::move(doubt));
         angles.symmetry = symmetry_of_type_c(text, angles.horizontal_deg, doubts);
         return angles;
     }

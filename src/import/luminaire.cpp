@@ -1,5 +1,7 @@
 #include "import/luminaire.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -56,6 +58,13 @@ void darken_behind(std::vector<PhotometricPlane>& planes) {
 }
 
 }  // namespace
+
+std::optional<std::string> doubt_of_polar_angles(std::span<const double> polar_deg) {
+    const auto is = [](double angle, double expected) { return std::abs(angle - expected) < same_angle_deg; };
+    const double first = polar_deg.front(), last = polar_deg.back();
+    if ((is(first, 0) && (is(last, 90) || is(last, 180))) || (is(first, 90) && is(last, 180))) return std::nullopt;
+    return fmt::format("angles from nadir run from {:g} to {:g}: no light is sent outside them", first, last);
+}
 
 PhotometricWeb complete_web(std::span<const double> polar_deg, std::vector<PhotometricPlane> planes, PlaneSymmetry symmetry) {
     if (symmetry == PlaneSymmetry::mirrored_at_90_270 || symmetry == PlaneSymmetry::quadrants) mirror(planes, 180);

@@ -23,6 +23,9 @@ namespace heliodon::import {
 /// What follows "TILT" and "=" where the line says so, whatever its case.
 [[nodiscard]] std::optional<std::string_view> tilt_of(std::string_view line);
 
+/// A message where angles in degrees from nadir do not cover the lower half, the upper half or both.
+[[nodiscard]] std::optional<std::string> doubt_of_polar_angles(std::span<const double> polar_deg);
+
 /// Intensities in one half-plane about the polar axis.
 struct PhotometricPlane {
     double azimuth_deg = 0;

@@ -130,7 +130,8 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
     inputs_.instance_count = gpu_scene_.instance_count();
     inputs_.has_tested = gpu_scene_.has_tested();
     inputs_.has_blended = gpu_scene_.has_blended();
-    if (inputs_.has_extended != gpu_scene_.has_extended()) voxels_.forget_passes();
+    if (inputs_.has_extended != gpu_scene_.has_extended() || inputs_.has_luminaires != gpu_scene_.has_luminaires()) voxels_.forget_passes();
+    inputs_.has_luminaires = wanted_.luminaires = gpu_scene_.has_luminaires();
     inputs_.has_extended = wanted_.extended = gpu_scene_.has_extended();
     wanted_.aov = sample.aov != shading::frame_aov_none;
     wanted_.cone_shadows = has_cone_shadows_;

@@ -352,6 +352,8 @@ void GpuScene::classify() {
         has_tested_ |= (flags & shading::material_flag_alpha_mask) != 0;
         has_extended_ |= (flags & shading::material_flag_extended) != 0;
     }
+    has_luminaires_ = std::any_of(flat_.lights().begin(), flat_.lights().end(),
+                                  [](const shading::LightData& light) { return light.type == shading::light_type_luminaire; });
 }
 
 Result<RealtimeUpdate> GpuScene::update(const Scene& scene) {

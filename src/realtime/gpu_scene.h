@@ -67,6 +67,7 @@ public:
     [[nodiscard]] bool has_blended() const { return has_blended_; }
     /// Whether any needs what SHADING's extended models have (shading/surface.h).
     [[nodiscard]] bool has_extended() const { return has_extended_; }
+    [[nodiscard]] bool has_luminaires() const { return has_luminaires_; }
     /// Bytes that the vertices' attributes take on the device.
     [[nodiscard]] std::uint64_t vertex_bytes() const { return vertex_ranges_.used() * 4; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
@@ -118,7 +119,7 @@ private:
     MovingInstances surfaces_;
     Bounds bounds_;
     bool compact_ = false;  // convert.vertex_precision
-    bool has_tested_ = false, has_blended_ = false, has_extended_ = false;
+    bool has_tested_ = false, has_blended_ = false, has_extended_ = false, has_luminaires_ = false;
     std::uint64_t revision_ = 0, sky_revision_ = 0, light_revision_ = 0;
 };
 

@@ -118,31 +118,39 @@ SHADING_FN float any_light_pdf(SHADING_IN(LightData) light, vec3 point, vec3 dir
     return opening_pdf(shape, light.half_extent, from, along, opening_intersect(shape, light.half_extent, from, along));
 }
 
+/// From the luminaire's position, whatever the extent of its opening.
+SHADING_FN LightSample luminaire_point_sample(SHADING_IN(LightData) light, vec3 point) {
+    const vec3 to_center = light.position - point;
+    LightSample result;
+    result.is_delta = true;
+    result.pdf = 0.0f;
+    result.value = vec3(0.0f);
+    result.distance = length(to_center);
+    result.direction = to_center / max(result.distance, 1.0e-30f);
+    if (result.distance > 0.0f) {  // inverse-square law
+        result.value = luminaire_intensity(light, -result.direction) / (result.distance * result.distance);
+    }
+    return result;
+}
+
 SHADING_FN LightSample any_light_sample(SHADING_IN(LightData) light, vec3 point, vec2 u) {
     if (light.type != light_type_luminaire) {
         return light_sample(light, point, u);
     }
+    if (light.radius <= 0.0f) {
+        return luminaire_point_sample(light, point);
+    }
+    const OpeningSample seen = opening_sample(light.opening & opening_shape_bits, light.half_extent,
+                                              luminaire_to_local(light, point - light.position), u);
     LightSample result;
-    result.is_delta = light.radius <= 0.0f;
+    result.is_delta = false;
     result.pdf = 0.0f;
     result.value = vec3(0.0f);
-    const vec3 to_center = light.position - point;
-    result.distance = length(to_center);
-    result.direction = to_center / max(result.distance, 1.0e-30f);
-    if (result.is_delta) {
-        // Inverse-square law.
-        if (result.distance > 0.0f) {
-            result.value = luminaire_intensity(light, -result.direction) / (result.distance * result.distance);
-        }
-        return result;
-    }
-    const OpeningSample seen =
-        opening_sample(light.opening & opening_shape_bits, light.half_extent, luminaire_to_local(light, -to_center), u);
+    result.distance = seen.t;
+    result.direction = luminaire_to_world(light, seen.direction);
     if (seen.pdf <= 0.0f) {
         return result;
     }
-    result.direction = luminaire_to_world(light, seen.direction);
-    result.distance = seen.t;
     result.pdf = seen.pdf;
     result.value = luminaire_radiance(light, -result.direction) / seen.pdf;
     return result;

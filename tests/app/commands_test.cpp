@@ -280,6 +280,22 @@ TEST_F(Commands, InfoCountsAndGivesTheFluxOfLights) {
     EXPECT_NE(text.output.find("bulb"), std::string::npos);
 }
 
+TEST_F(Commands, InfoSaysWhatAPhotometricFileMeasuresAndWhereItContradictsItself) {
+    write("down.ies", "IESNA:LM-63-2002\n[LUMINAIRE] Downlight\nTILT=NONE\n1 50 1 2 1 1 2 -.2 -.2 0\n1 1 10\n0 180\n0\n10 10\n");
+    const Ended ended = run({"info", "down.ies", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json report = json::parse(ended.output);
+    const json& light = report["lights"][0];
+    EXPECT_EQ(light["luminaire"], "Downlight");
+    EXPECT_NEAR(light["flux_lm"], 4 * 3.14159265 * 10, 1e-3);
+    EXPECT_EQ(light["measured_peak_cd"], 10);
+    EXPECT_EQ(light["opening"], "disc");
+    bool doubted = false;
+    for (const json& warning : report["warnings"]) doubted |= warning.get<std::string>().find("more than the 50.0 lm") != std::string::npos;
+    EXPECT_TRUE(doubted);
+    EXPECT_NE(run({"info", "down.ies"}).output.find("125.664 lm"), std::string::npos);
+}
+
 TEST_F(Commands, DevicesAreListedWithWhatTheySupport) {
     const Ended ended = run({"devices", "--json"});
     ASSERT_EQ(ended.code, 0) << ended.error;

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <random>
 #include <tuple>
+
+#include "shading/luminaire_shape.h"
 
 namespace heliodon::convert {
 namespace {
@@ -211,6 +214,61 @@ TEST(FlatScene, following_the_journal_equals_building_from_scratch_for_any_edits
         };
         ASSERT_EQ(lit(followed), lit(fresh)) << "after step " << step;
     }
+}
+
+Light luminaire_light(double candela, OpeningShape shape = OpeningShape::box) {
+    auto luminaire = std::make_shared<Luminaire>();
+    luminaire->web = {.polar_rad = {0, 1.5}, .azimuth_rad = {0}, .candela = {candela, candela / 2}};
+    luminaire->opening = {shape, {0.6f, 0.1f, 0.2f}};
+    integrate(*luminaire);
+    Light light{.type = LightType::luminaire, .intensity = glm::vec3(static_cast<float>(candela))};
+    light.luminaire = std::move(luminaire);
+    return light;
+}
+
+TEST(FlatLuminaires, LightsOfOneFileShareATableAndOthersAreAppended) {
+    Scene scene;
+    const Light shared = luminaire_light(8);
+    const NodeId first = scene.add_node(node_with("first", {}, {1, 0, 0}, shared));
+    scene.add_node(node_with("second", {}, {2, 0, 0}, shared));
+    FlatScene flat;
+    EXPECT_TRUE(flat.update(scene).everything);
+    ASSERT_EQ(flat.luminaire_table().size(), 7u);  // two counts, two angles, one plane, two values
+    EXPECT_EQ(flat.luminaire_table()[5], 1.0f);
+    EXPECT_EQ(flat.luminaire_table()[6], 0.5f);
+    EXPECT_EQ(flat.lights()[0].table, flat.lights()[1].table);
+    EXPECT_NEAR(flat.lights()[0].flux_factor * 8, shared.luminaire->flux_lm, 1e-5);
+
+    scene.set_light(first, luminaire_light(3));
+    const FlatChanges changes = flat.update(scene);
+    EXPECT_TRUE(changes.luminaires && !changes.everything);
+    EXPECT_EQ(flat.luminaire_table().size(), 14u);
+    EXPECT_NE(flat.lights()[0].table, flat.lights()[1].table);
+    scene.set_transform(first, {.translation = {0, 1, 0}});
+    EXPECT_FALSE(flat.update(scene).luminaires);
+}
+
+TEST(FlatLuminaires, AnOpeningsAxesAreThoseOfItsTableAndFacesWeighByWhatTheySend) {
+    Scene scene;
+    scene.add_node(node_with("box", {}, {}, luminaire_light(8)));
+    scene.add_node(node_with("tube", {}, {}, luminaire_light(8, OpeningShape::cylinder_x)));
+    Node mirrored = node_with("mirrored", {}, {}, luminaire_light(8));
+    mirrored.transform.scale = {-1, 1, 1};
+    scene.add_node(mirrored);
+    FlatScene flat;
+    (void)flat.update(scene);
+    const shading::LightData& box = flat.lights()[0];
+    EXPECT_EQ(box.axis, glm::vec3(0, -1, 0));
+    EXPECT_EQ(box.tangent, glm::vec3(1, 0, 0));
+    EXPECT_EQ(box.half_extent, glm::vec3(0.3f, 0.1f, 0.05f));  // C0, C90, nadir
+    EXPECT_EQ(box.opening, shading::opening_box);
+    const auto weight = [&](std::uint32_t face) { return shading::opening_face_weight(box.face_weights, face); };
+    EXPECT_EQ(weight(4), 31.0f);  // downwards
+    EXPECT_EQ(weight(5), 1.0f);   // nothing goes up
+    EXPECT_EQ(weight(0), weight(1));
+    EXPECT_GT(weight(2), weight(0));  // the longer sides
+    EXPECT_EQ(flat.lights()[1].opening, shading::opening_cylinder_x);
+    EXPECT_EQ(flat.lights()[2].opening, shading::opening_box | shading::opening_mirrored);
 }
 
 }  // namespace

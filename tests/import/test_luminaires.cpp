@@ -365,6 +365,9 @@ TEST(Ies, NegativeIntensitiesAreNoneAndWhatFollowsIsNotRead) {
     EXPECT_EQ(candela(luminaire, 0, 90), 0);
     EXPECT_TRUE(reader.warned("1 intensities are negative"));
     EXPECT_TRUE(reader.warned("more follows"));
+    ies.vertical = "0 45 85";
+    (void)reader.read(ies.text());
+    EXPECT_TRUE(reader.warned("run from 0 to 85: no light is sent outside them"));
 }
 
 // -- EULUMDAT
@@ -487,6 +490,20 @@ TEST(Luminaires, TheContentDecidesWhereTheEndingDoesNot) {
     EXPECT_EQ(reader.read(Ies{}.text(), "l.ldt").name, "Downlight");
     EXPECT_EQ(reader.read(Ldt{}.text(), "l.txt").name, "name");
     EXPECT_NE(reader.error(Ies{}.text(), "l.ies", 2).find("expected lamp_set 1"), std::string::npos);
+}
+
+TEST(Luminaires, AreModelsOfOneLight) {
+    Reader reader;
+    Scene scene;
+    Warnings warnings;
+    const auto root = import_model(scene, {}, reader.folder.write("down.IES", Ies{}.text()), warnings);
+    ASSERT_TRUE(root) << root.error().text();
+    const Node& node = *scene.nodes().find(*root);
+    EXPECT_EQ(node.name, "down");
+    ASSERT_TRUE(node.light && node.light->luminaire);
+    EXPECT_NEAR(flux_lm(*node.light), node.light->luminaire->flux_lm, 1e-3);
+    EXPECT_FALSE(import_model(scene, {}, reader.folder.write("cut.ldt", "Maker\n"), warnings));
+    EXPECT_EQ(scene.nodes().size(), 1u);
 }
 
 TEST(Luminaires, CutOrDamagedAnywhereTheyAreRefusedOrRead) {

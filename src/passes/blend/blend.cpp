@@ -26,6 +26,7 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
     gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
     constants[1] = cone_traced ? 1 : 0;
     set_material_constants(constants, scene);
+    set_light_constants(constants, scene);
     auto compose = pipelines.compute("passes/blend/blend.comp", constants);
     if (!compose) return tl::unexpected(compose.error());
 

@@ -16,7 +16,7 @@ LightData batch_light(FrameData frame, uint index) { return light_table[active_l
 
 LightSample light_arriving(vec3 position, LightData light, uint index, uint pixel_seed) {
     const uint seed = pcg_hash(pixel_seed + index);
-    return any_light_sample(light, position, vec2(unit_interval(seed), unit_interval(pcg_hash(seed))));
+    return scene_light_sample(light, position, vec2(unit_interval(seed), unit_interval(pcg_hash(seed))));
 }
 
 vec3 light_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, uint index, FrameData frame, uint pixel_seed) {

@@ -21,12 +21,18 @@ struct SceneInputs {
     bool has_tested = false;   ///< something visible is alpha-masked
     bool has_blended = false;  ///< something visible is alpha-blended
     bool has_extended = false;  ///< some material is more than the standard model's core; pipelines are chosen by it
+    bool has_luminaires = false;  ///< pipelines are chosen by it, too
     std::uint32_t draw_calls = 0;  ///< indirect draws recorded; the passes count
 };
 
 /// Constant 9 of every shader that evaluates materials (shading/surface.h).
 inline void set_material_constants(gpu::Specialization& constants, const SceneInputs& scene) {
     constants[9] = scene.has_extended ? 1u : 0u;
+}
+
+/// Constant 10 of every shader that asks lights for what they send (luminaires.glsl).
+inline void set_light_constants(gpu::Specialization& constants, const SceneInputs& scene) {
+    constants[10] = scene.has_luminaires ? 1u : 0u;
 }
 
 using NumberedBinding = std::pair<std::uint32_t, gpu::Binding>;

@@ -19,8 +19,8 @@ vec3 lights_seen(vec3 origin, vec3 direction, float distance) {
     vec3 sum = vec3(0.0f);
     for (uint i = 0u; i < visible_light_count; ++i) {
         const LightData light = visible_lights[i];
-        const float t = any_light_intersect(light, origin, direction);
-        if (t >= 0.0f && t < distance) sum += any_light_radiance(light, direction);
+        const float t = scene_light_intersect(light, origin, direction);
+        if (t >= 0.0f && t < distance) sum += scene_light_radiance(light, direction);
     }
     return sum;
 }

@@ -18,7 +18,7 @@ vec3 illuminance_from(LightData light, VoxelFace face) {
     const uint samples = light_is_delta(light) ? 1u : area_light_samples;
     vec3 sum = vec3(0.0f);
     for (uint i = 0u; i < samples; ++i) {
-        const LightSample arriving = any_light_sample(light, face.position, hammersley(i, samples));
+        const LightSample arriving = scene_light_sample(light, face.position, hammersley(i, samples));
         sum += arriving.value * max(dot(arriving.direction, face.normal), 0.0f);
     }
     if (sum == vec3(0.0f)) return sum;

@@ -164,7 +164,9 @@ Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, co
 Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                               const LightingInputs& lighting, const InjectCascade& cascade, const ShadowMaps& shadow_maps,
                               const VolumeImages& images) {
-    auto pipeline = pipelines.compute("passes/inject/direct.comp", cone_constants(*lighting.volume, lighting.cone_shadows));
+    gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
+    set_light_constants(constants, scene);
+    auto pipeline = pipelines.compute("passes/inject/direct.comp", constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         "inject lights", PassKind::compute,

@@ -10,7 +10,7 @@ layout(push_constant) uniform Push { SensorConstants push; };
 
 /// Lights with an extent come here as one of their points, and the shadow grids move; the caller averages over many.
 vec3 illuminance_from(LightData light, vec3 position, vec3 normal) {
-    const LightSample arriving = any_light_sample(light, position, vec2(0.5f));
+    const LightSample arriving = scene_light_sample(light, position, vec2(0.5f));
     const vec3 unshadowed = arriving.value * max(dot(arriving.direction, normal), 0.0f);
     if (unshadowed == vec3(0.0f)) return unshadowed;
     return unshadowed * light_reaching(light, position, normal, shadow_filter_free);

@@ -8,7 +8,9 @@ Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, 
                             const LightingInputs& lighting, const gpu::Image& shadow_depth,
                             const gpu::Image& shadow_slope, const gpu::Buffer& sensors, std::uint32_t count,
                             const SensorLights& lights) {
-    auto pipeline = pipelines.compute("passes/sensors/sensors.comp", cone_constants(*lighting.volume, lighting.cone_shadows));
+    gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
+    set_light_constants(constants, scene);
+    auto pipeline = pipelines.compute("passes/sensors/sensors.comp", constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
     const shading::SensorConstants push{count, lights.first, lights.count, lights.sky ? 1u : 0u};
     const auto bindings = select_bindings(**pipeline, scene,

@@ -9,6 +9,7 @@ Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const S
     constants[0] = options.aov ? 1 : 0;
     constants[1] = options.cones_follow ? 1 : 0;
     set_material_constants(constants, scene);
+    set_light_constants(constants, scene);
     auto pipeline = pipelines.compute("passes/shade/shade.comp", constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
     const auto image = [&](const char* name, VkFormat format, VkExtent2D size) {
