@@ -122,8 +122,9 @@ SHADING_FN void bidirectional_scatter(SHADING_INOUT(BidirectionalState) state) {
     if (max_component(throughput) <= 0.0f) {
         return;
     }
-    if (events >= 4u) {  // as in kernel_scatter
-        const float survival = min(max_component(throughput) / state.walk.eta_scale, 0.98f);
+    // As in kernel_scatter.
+    const float survival = min(3.0f * max_component(throughput) / state.walk.eta_scale, events < 8u ? 1.0f : 0.98f);
+    if (survival < 1.0f) {
         if (bidirectional_random_pair(state, event + 1u, 0u).x >= survival) {
             return;
         }

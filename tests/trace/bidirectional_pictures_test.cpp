@@ -2,9 +2,12 @@
 // is better.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/metrics.h"
 #include "import/import.h"
 #include "picture_means.h"
+#include "shading/random.h"
 #include "trace/bidirectional_loop.h"
 
 namespace heliodon::tests {
@@ -17,14 +20,14 @@ using namespace trace;
 /// A floor, a wall and a board that touch nowhere: connections between corners would never settle.
 Scene apart() {
     Scene scene;
-    add_shape(scene, Quad{{-1, 0, -1}, {0, 0, 2}, {2, 0, 0}}, lambert(.7f));
-    add_shape(scene, Quad{{-1, .5f, -2}, {2, 0, 0}, {0, 2, 0}}, lambert(.6f));
+    add_shape(scene, Quad{{-2.5f, 0, -1.5f}, {0, 0, 3.5f}, {5, 0, 0}}, lambert(.7f));
+    add_shape(scene, Quad{{-2.5f, .5f, -2}, {5, 0, 0}, {0, 3, 0}}, lambert(.6f));
     Material board = rough_glass();
     board.transmission = .5f;
     board.roughness = .8f;
     board.two_sided = true;
     add_shape(scene, Quad{{-.8f, .6f, -.3f}, {.7f, 0, 0}, {0, .6f, .2f}}, board);
-    add_light(scene, point_light(40, .3f), {.8f, 1.6f, .1f});
+    add_light(scene, point_light(40, .6f), {.8f, 1.6f, .1f});
     return scene;
 }
 
@@ -77,7 +80,7 @@ TEST(Bidirectional, EveryStrategyAloneFindsTheSameLight) {
     PathOptions reference = pictures_of(16, 64, Integrator::path), alone = pictures_of(16, 16, Integrator::path);
     const PartMeans all = means_of(scene, camera, reference);
     const auto any = bidirectional_any;
-    expect_equal_means("camera subpaths that meet the light", all, strategy_means(scene, camera, alone, {0, any}, false));
+    expect_equal_means("camera subpaths that meet the light", all, strategy_means(scene, camera, alone, {0, any}, false), .05);
     expect_equal_means("next-event estimation", all, strategy_means(scene, camera, alone, {1, any}, false));
     expect_equal_means("one scattered light vertex", all, strategy_means(scene, camera, alone, {2, any}, false));
     expect_equal_means("light subpaths that reach the camera", all, strategy_means(scene, camera, alone, {any, 1}, false));
@@ -85,6 +88,45 @@ TEST(Bidirectional, EveryStrategyAloneFindsTheSameLight) {
     const PartMeans indirect = means_of(scene, camera, reference);
     expect_equal_means("two scattered light vertices", indirect, strategy_means(scene, camera, alone, {3, any}, true));
     expect_equal_means("one camera vertex, connected", indirect, strategy_means(scene, camera, alone, {any, 2}, true), .1);
+}
+
+// -- samplers
+
+TEST(LightEmission, DirectionsFollowTheirDensity) {
+    LightData light{};
+    light.axis = glm::normalize(glm::vec3(1, -2, .5f));
+    light.cos_inner = .9f;
+    light.cos_outer = .5f;
+    for (const std::uint32_t type : {light_type_point, light_type_spot, light_type_lambertian}) {
+        light.type = type;
+        constexpr int bins = 40, samples = 200000;
+        std::array<int, bins> counts{};
+        for (int i = 0; i < samples; ++i) {
+            const glm::vec3 direction = light_sample_emission(light, random2(7, static_cast<std::uint32_t>(i), 0, type));
+            const double cosine = glm::dot(light.axis, direction);
+            ++counts[std::clamp(static_cast<int>((cosine + 1) / 2 * bins), 0, bins - 1)];
+        }
+        double statistic = 0;
+        int freedom = -1;
+        for (int bin = 0; bin < bins; ++bin) {
+            double expected = 0;
+            constexpr int steps = 200;
+            const Frame frame = frame_from_normal(light.axis);
+            for (int k = 0; k < steps; ++k) {
+                const double cosine = (bin + (k + .5) / steps) * 2 / bins - 1;
+                const glm::vec3 local(std::sqrt(1 - cosine * cosine), 0, cosine);
+                expected += samples * 2 * pi * light_emission_pdf(light, to_world(frame, local)) * 2 / bins / steps;
+            }
+            if (expected < 5) {
+                EXPECT_LE(counts[bin], 20) << "type " << type << ", bin " << bin;
+                continue;
+            }
+            ++freedom;
+            statistic += (counts[bin] - expected) * (counts[bin] - expected) / expected;
+        }
+        // Six standard deviations of χ² over its mean.
+        EXPECT_LT(statistic, freedom + 6 * std::sqrt(2.0 * freedom)) << "type " << type;
+    }
 }
 
 // -- exact answers

@@ -48,8 +48,8 @@ struct PartMeans {
     }
 };
 
-/// Welch's test of each part. 5.5 standard errors are exceeded by chance once in 10⁶ parts with some 60 degrees of
-/// freedom (Student's t): these tests look at a thousand. A part must also be known well enough to be worth testing.
+/// Welch's test of each part. Chance exceeds 5.5 standard errors once in 600 000 parts with some 46 degrees of freedom
+/// (Student's t); these tests look at a thousand. The picture must also be known well enough to say anything.
 inline void expect_equal_means(const std::string& name, const PartMeans& a, const PartMeans& b, double precision = 0.03) {
     ASSERT_GT(a.whole(), 0) << name;
     double of_picture = 0;
@@ -61,7 +61,7 @@ inline void expect_equal_means(const std::string& name, const PartMeans& a, cons
     EXPECT_LT(std::sqrt(of_picture), precision * a.whole()) << name << ": too noisy to say anything";
 }
 
-inline PartMeans means_of(const Scene& scene, const Camera& camera, PathOptions options, int renders = 32) {
+inline PartMeans means_of(const Scene& scene, const Camera& camera, PathOptions options, int renders = 24) {
     PathTracer tracer;
     EXPECT_TRUE(tracer.update(scene));
     PartMeans means;
