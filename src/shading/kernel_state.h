@@ -142,6 +142,7 @@ struct KernelFrame {
     uint sample_streams;      // independently scrambled sequences that a pixel's samples take turns in; at least 1
     uint distant_emitters;    // directional lights and the sky: first among the emitters, in no tree
     uint light_node_count;    // 0: emitters are selected by their `probability` alone
+    uint tile_bits;           // pixels of squares of 2^tile_bits share a scrambling (kernel_tile_sampler.h); 0 to 4
 };
 
 // -- the path
@@ -173,7 +174,8 @@ struct PathState {
     vec3 direct;  // the part of it scattered at most once
     float eta_scale;  // the part of the throughput that is radiance's 1/eta² across boundaries
     vec3 scatter_normal;  // at scatter_origin, as kernel_sample_emitters took it
-    float padding;
+    uint tile_seed;       // of the scrambling that the pixel shares with its tile
+    uint place_reversed;  // the pixel's number in its tile, bit-reversed
     vec3 absorption;  // of the solid that the path is in, 1/m
     float padding1;
 };

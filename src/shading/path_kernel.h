@@ -37,6 +37,9 @@ SHADING_FN vec2 kernel_random_pair(uint pixel_seed, uint sample_reversed, uint e
     return kernel_sample_pair(sample_reversed, pixel_seed + (4u * event + pair) * 0x9e3779b9u);
 }
 SHADING_FN vec2 path_random_pair(SHADING_IN(PathState) path, uint event, uint pair) {
+    if (event < kernel_tiled_events) {
+        return kernel_tile_pair(path.sample_reversed, path.place_reversed, path.tile_seed + (4u * event + pair) * 0x9e3779b9u);
+    }
     return kernel_random_pair(path.pixel_seed, path.sample_reversed, event, pair);
 }
 SHADING_FN float path_random_first(SHADING_IN(PathState) path, uint event, uint pair) {
@@ -70,7 +73,8 @@ SHADING_FN PathState path_begin_along(uint stream, uint sample_index, vec3 origi
     path.direct = vec3(0.0f);
     path.eta_scale = 1.0f;
     path.scatter_normal = vec3(0.0f);
-    path.padding = 0.0f;
+    path.tile_seed = path.pixel_seed;
+    path.place_reversed = 0u;
     path.absorption = vec3(0.0f);
     path.padding1 = 0.0f;
     return path;
@@ -82,6 +86,13 @@ SHADING_FN PathState path_begin(uint x, uint y, uint sample_index) {
     PathState path = path_begin_along(y * kernel_frame().width + x, sample_index / streams, kernel_frame().camera_position, vec3(0.0f));
     if (sample_index % streams != 0u) {
         path.pixel_seed = kernel_hash_combine(path.pixel_seed, sample_index % streams);
+    }
+    path.tile_seed = path.pixel_seed;
+    const uint bits = kernel_frame().tile_bits;
+    if (bits > 0u) {
+        const uint mask = (1u << bits) - 1u;
+        path.tile_seed = kernel_hash_combine(kernel_hash(kernel_frame().seed ^ 0x5bd1e995u), (y >> bits) << 16u | (x >> bits));
+        path.place_reversed = kernel_reverse_bits(kernel_morton(x & mask, y & mask));
     }
     const vec2 jitter = path_random_pair(path, 0u, 0u);
     const float across = 2.0f * (float(x) + jitter.x) / float(kernel_frame().width) - 1.0f;

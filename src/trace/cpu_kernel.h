@@ -7,6 +7,7 @@
 #include "shading/bsdf.h"
 #include "shading/kernel_sampler.h"
 #include "shading/kernel_state.h"
+#include "shading/kernel_tile_sampler.h"
 #include "shading/light.h"
 #include "shading/luminaire_shape.h"
 #include "shading/material_eval.h"

@@ -130,7 +130,12 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
     if (!state_->ready) return fail("", "expected the tracer to have followed the scene before it renders");
     trace::CpuKernel kernel = state_->kernel(options);
     set_camera(camera, options, kernel.frame);
-    if (trace::wants_variance(options)) kernel.frame.sample_streams = trace::variance_streams;
+    // Whoever tells the scatter of pixels from their neighbours' needs them independent.
+    constexpr std::uint32_t tile_bits = 4;
+    if (trace::wants_variance(options))
+        kernel.frame.sample_streams = trace::variance_streams;
+    else if (options.blue_noise)
+        kernel.frame.tile_bits = tile_bits;
     trace::EmissionTable emission;
     trace::AddSamples bidirectional;
     if (options.integrator == Integrator::bidirectional) {

@@ -33,6 +33,7 @@ struct PathOptions {
     std::optional<double> target_error;
     double target_floor = 0;        ///< measure: to the target error smaller values count as this
     std::vector<std::string> aovs;  ///< albedo normal depth position direct indirect variance samples
+    bool blue_noise = true;  ///< neighbouring pixels err apart; false: independently, as with a variance or target error
     bool light_tree = true;  ///< false: lights are selected by flux alone, wherever they stand
     KeepState keep_state = KeepState::never;
     const Picture* resume = nullptr;  ///< a picture with state, of the same scene and options, to go on from

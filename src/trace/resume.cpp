@@ -15,7 +15,7 @@ namespace {
 constexpr const char* prefix = "resume.";
 constexpr const char* done_name = "resume.samples";
 // Of the sequences of samples and of what is stored: another is not gone on from.
-constexpr const char* format_version = "1";
+constexpr const char* format_version = "2";
 
 // A double is the sum of three floats to its last bit: 24 + 24 + 5 bits of its 53.
 constexpr std::array part_names{".high", ".middle", ".low"};
@@ -124,6 +124,7 @@ RenderIdentity render_identity(const CpuKernel& kernel, const PathOptions& optio
             {"seed", fmt::format("{}", options.seed)},
             {"integrator", options.integrator == Integrator::bidirectional ? "bidirectional" : "path"},
             {"max-depth", fmt::format("{}", options.max_depth)},
+            {"blue-noise", kernel.frame.tile_bits > 0 ? "yes" : "no"},
             {"light-selection", options.light_tree ? "tree" : "flux"},
             {"environment", options.environment ? "yes" : "no"},
             {"target-error", options.target_error ? fmt::format("{}", *options.target_error) : "none"},
@@ -150,8 +151,8 @@ Result<void> restore_state(const Picture& picture, const RenderIdentity& identit
     const auto done = picture.attributes.find(done_name);
     if (done == picture.attributes.end())
         return fail("", "expected a picture of an interrupted or resumable render (its state is not in this one)");
-    for (const char* name : {"format", "size", "seed", "integrator", "max-depth", "light-selection",
-                             "environment", "target-error", "variance", "camera", "scene"}) {
+    for (const char* name : {"format", "size", "seed", "integrator", "max-depth", "target-error", "variance",
+                             "blue-noise", "light-selection", "environment", "camera", "scene"}) {
         const auto stored = picture.attributes.find(std::string(prefix) + name);
         const std::string found = stored == picture.attributes.end() ? "nothing" : stored->second;
         if (found != identity.at(name))

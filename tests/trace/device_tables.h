@@ -109,7 +109,8 @@ inline KernelFrame small_room_frame(const EmitterTable& emitters) {
             .scattered_emission = 1,
             .sample_streams = 1,
             .distant_emitters = emitters.distant_emitters,
-            .light_node_count = static_cast<std::uint32_t>(emitters.light_nodes.size())};
+            .light_node_count = static_cast<std::uint32_t>(emitters.light_nodes.size()),
+            .tile_bits = 4};
 }
 
 }  // namespace heliodon::tests

@@ -25,6 +25,7 @@ float shading_table(uint index) { return tables[index]; }
 
 #include "shading/bsdf.h"
 #include "shading/kernel_sampler.h"
+#include "shading/kernel_tile_sampler.h"
 #include "shading/luminaire_shape.h"
 #include "shading/material_eval.h"
 #include "shading/sky.h"
