@@ -3,6 +3,7 @@
 // Empties the occupied voxels of one coarse level.
 #include "passes/inject/level_work.glsl"
 
+layout(local_size_y = 6) in;  // a side each
 layout(set = 0, binding = 20, rgba16f) uniform writeonly image3D faces;
 layout(set = 0, binding = 21, r16f) uniform writeonly image3D depths;
 
@@ -10,9 +11,8 @@ void main() {
     ivec3 voxel;
     int size;
     if (!level_voxel(voxel, size)) return;
-    for (int axis = 0; axis < 3; ++axis)
-        for (int side = 0; side < 2; ++side) {
-            imageStore(faces, face_corner(axis, side, size) + voxel, vec4(0.0f));
-            imageStore(depths, face_corner(axis, side, size) + voxel, vec4(0.0f));
-        }
+    const int face = int(gl_LocalInvocationID.y);
+    const ivec3 texel = face_corner(face >> 1, face & 1, size) + voxel;
+    imageStore(faces, texel, vec4(0.0f));
+    imageStore(depths, texel, vec4(0.0f));
 }

@@ -3,6 +3,7 @@
 // Empties the occupied voxels of a cascade, before its surfaces are voxelized anew.
 #include "passes/inject/record_work.glsl"
 
+layout(local_size_y = voxel_faces) in;  // a side each
 layout(set = 0, binding = 20, rgba16f) uniform writeonly image3D faces;
 layout(set = 0, binding = 21, r16f) uniform writeonly image3D depths;
 layout(push_constant) uniform Push { InjectConstants push; };
@@ -10,9 +11,7 @@ layout(push_constant) uniform Push { InjectConstants push; };
 void main() {
     const uint record = linear_invocation();
     if (record >= voxel_header.record_count) return;
-    const uvec3 voxel = record_voxel(record, push.grid.size);
-    for (uint face = 0u; face < voxel_faces; ++face) {
-        imageStore(faces, face_texel(voxel, face, push.grid.size, push.cascade), vec4(0.0f));
-        imageStore(depths, face_texel(voxel, face, push.grid.size, push.cascade), vec4(0.0f));
-    }
+    const ivec3 texel = face_texel(record_voxel(record, push.grid.size), gl_LocalInvocationID.y, push.grid.size, push.cascade);
+    imageStore(faces, texel, vec4(0.0f));
+    imageStore(depths, texel, vec4(0.0f));
 }

@@ -5,6 +5,7 @@
 #include "passes/inject/isotropic.glsl"
 #include "passes/inject/level_work.glsl"
 
+layout(local_size_y = 6) in;  // a side each
 layout(set = 0, binding = 20, rgba16f) uniform readonly image3D fine;
 layout(set = 0, binding = 21, rgba16f) uniform writeonly image3D coarse;
 layout(set = 0, binding = 22, r16f) uniform readonly image3D fine_depths;
@@ -67,16 +68,13 @@ void main() {
     ivec3 voxel;
     int size;
     if (!level_voxel(voxel, size)) return;
+    const int face = int(gl_LocalInvocationID.y);
     if (isotropic) {
-        write_isotropic(voxel, size);
+        if (face == 0) write_isotropic(voxel, size);
         return;
     }
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int side = 0; side < 2; ++side) {
-            const ivec3 texel = face_corner(axis, side, size) + voxel;
-            float depth;
-            const vec4 value = filtered(texel, axis, side, depth);
-            write(texel, value, depth);
-        }
-    }
+    const ivec3 texel = face_corner(face >> 1, face & 1, size) + voxel;
+    float depth;
+    const vec4 value = filtered(texel, face >> 1, face & 1, depth);
+    write(texel, value, depth);
 }

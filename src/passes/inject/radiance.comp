@@ -6,6 +6,7 @@
 #include "passes/inject/record_work.glsl"
 #include "shading/sampling.h"
 
+layout(local_size_y = voxel_faces) in;  // a side each: of one voxel they stand side by side in memory
 layout(set = 0, binding = 19, std430) readonly buffer Illuminance { vec4 illuminance[]; };  // of the lights
 layout(set = 0, binding = 20, rgba16f) uniform writeonly image3D faces;
 layout(set = 0, binding = 21, r16f) uniform writeonly image3D depths;
@@ -52,13 +53,12 @@ void main() {
     const uint record = linear_invocation();
     if (record >= voxel_header.record_count) return;
     const uvec3 voxel = record_voxel(record, push.grid.size);
+    const uint side = gl_LocalInvocationID.y;
     if (isotropic) {
-        write_isotropic(record, voxel);
+        if (side == 0u) write_isotropic(record, voxel);
         return;
     }
-    for (uint i = 0u; i < voxel_faces; ++i) {
-        const VoxelFace face = voxel_face(push.grid, record, i);
-        const vec4 value = face_value(face, record * voxel_faces + i);
-        write_face(face_texel(voxel, i, push.grid.size, push.cascade), value, face.within[i >> 1u]);
-    }
+    const VoxelFace face = voxel_face(push.grid, record, side);
+    const vec4 value = face_value(face, record * voxel_faces + side);
+    write_face(face_texel(voxel, side, push.grid.size, push.cascade), value, face.within[side >> 1u]);
 }
