@@ -23,9 +23,10 @@ SHADING_FN vec2 bidirectional_random_pair(SHADING_IN(BidirectionalState) state, 
     if (state.phase == bidirectional_phase_camera) {
         return path_random_pair(state.walk, event, pair);
     }
-    const uint stream = state.sample_index % kernel_frame().sample_streams;
+    const uint streams = kernel_frame().sample_streams;
+    const uint stream = state.sample_index % streams;
     const uint seed = kernel_hash_combine(kernel_hash(kernel_frame().seed), 0x6c696768u + stream) + (4u * event + pair) * 0x9e3779b9u;
-    const vec2 of_sample = kernel_sample_pair(state.walk.sample_reversed, seed);
+    const vec2 of_sample = kernel_sample_pair(kernel_reverse_bits(state.sample_index / streams), seed);
     const vec2 of_pixel = kernel_sample_pair(kernel_reverse_bits(state.pixel), kernel_hash(seed));
     const float steps = 16777216.0f;  // of kernel_unit_float
     return vec2(float(uint(of_sample.x * steps) ^ uint(of_pixel.x * steps)), float(uint(of_sample.y * steps) ^ uint(of_pixel.y * steps))) / steps;
