@@ -49,7 +49,8 @@ void each_piece(const PhotometricWeb& web, Visit&& visit) {
             const double width = even ? 2 * std::numbers::pi / sectors : web.azimuth_rad[a + 1] - web.azimuth_rad[a];
             const double azimuth = even ? (double(a) + 0.5) * width : web.azimuth_rad[a] + 0.5 * width;
             const double polar = 0.5 * (web.polar_rad[p] + web.polar_rad[p + 1]);
-            const double candela = 0.25 * (web.at(first, p) + web.at(first, p + 1) + web.at(second, p) + web.at(second, p + 1));
+            const double candela =
+                0.25 * (web.at(first, p) + web.at(first, p + 1) + web.at(second, p) + web.at(second, p + 1));
             const double solid_angle = width * (std::cos(web.polar_rad[p]) - std::cos(web.polar_rad[p + 1]));
             visit(glm::vec3(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)),
                   candela * solid_angle);
@@ -68,7 +69,8 @@ std::uint32_t face_weights(const Luminaire& luminaire) {
         const float outline = shading::opening_projected_area(shape, half, direction);
         if (!(outline > 0)) return;
         const glm::vec3 seen = areas * shading::opening_turn(shape, direction) / outline;
-        for (int axis = 0; axis < 3; ++axis) flux[static_cast<std::size_t>(2 * axis + (seen[axis] < 0))] += std::abs(seen[axis]) * lumen;
+        for (int axis = 0; axis < 3; ++axis)
+            flux[static_cast<std::size_t>(2 * axis + (seen[axis] < 0))] += std::abs(seen[axis]) * lumen;
         if (!box) flux[0] += (1 - std::abs(seen.z)) * lumen;
     });
     constexpr double most = 31;
@@ -76,7 +78,8 @@ std::uint32_t face_weights(const Luminaire& luminaire) {
     std::uint32_t weights = 0;
     for (std::size_t face = 0; face < flux.size(); ++face) {
         const float area = box || face >= 4 ? areas[static_cast<int>(face / 2)] : face == 0 ? h.z : 0.0f;
-        const double weight = area > 0 ? std::clamp(std::ceil(largest > 0 ? most * flux[face] / largest : most), 1.0, most) : 0.0;
+        const double weight =
+            area > 0 ? std::clamp(std::ceil(largest > 0 ? most * flux[face] / largest : most), 1.0, most) : 0.0;
         weights |= static_cast<std::uint32_t>(weight) << (5 * face);
     }
     return weights;
@@ -116,7 +119,8 @@ shading::LightData pack_luminaire(const Light& light, const glm::mat4& world, co
     data.position = glm::vec3(world[3]);
     data.axis = unit_or(linear * polar, polar);
     const glm::vec3 turned = linear * start;
-    data.tangent = unit_or(turned - data.axis * glm::dot(data.axis, turned), shading::frame_from_normal(data.axis).tangent);
+    data.tangent =
+        unit_or(turned - data.axis * glm::dot(data.axis, turned), shading::frame_from_normal(data.axis).tangent);
     const float tilt = std::acos(std::clamp(glm::dot(unit_or(linear * nadir, nadir), nadir), -1.0f, 1.0f));
     data.intensity = light.intensity * static_cast<float>(luminaire.factor_at_tilt(tilt));
     data.flux_factor = static_cast<float>(flux_per_candela(light));

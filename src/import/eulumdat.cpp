@@ -27,7 +27,8 @@ LuminousOpening read_opening(PhotometricText& text, std::vector<std::string>& do
         if (value < 0) text.refuse(fmt::format("{} of at least 0", what), fmt::format("{}", value));
         return value * millimetre;
     };
-    for (const char* what : {"the luminaire's length", "the luminaire's width", "the luminaire's height"}) (void)dimension(what);
+    for (const char* what : {"the luminaire's length", "the luminaire's width", "the luminaire's height"})
+        (void)dimension(what);
     const double length = dimension("the luminous area's length"), width = dimension("the luminous area's width");
     double lowest = 0, highest = 0;
     for (int side = 0; side < 4; ++side) {
@@ -41,7 +42,8 @@ LuminousOpening read_opening(PhotometricText& text, std::vector<std::string>& do
         return opening;
     }
     if (lowest < highest)
-        doubts.push_back(fmt::format("the luminous area's sides are {:g} to {:g} m high: all taken as the highest", lowest, highest));
+        doubts.push_back(fmt::format("the luminous area's sides are {:g} to {:g} m high: all taken as the highest",
+                                     lowest, highest));
     opening.shape = width == 0 ? OpeningShape::cylinder_y : OpeningShape::box;
     opening.size_m = glm::vec3(width == 0 ? length : width, highest, length);
     return opening;
@@ -50,7 +52,8 @@ LuminousOpening read_opening(PhotometricText& text, std::vector<std::string>& do
 /// The flux of the chosen set of lamps; each set has six lines.
 double read_lamps(PhotometricText& text, int lamp_set, std::vector<std::string>& doubts) {
     const int sets = text.whole_line("the number of lamp sets", 0, most_lamp_sets);
-    if (sets > 0 && lamp_set > sets) text.refuse(fmt::format("{0} sets of lamps, for lamp_set {0}", lamp_set), fmt::format("{}", sets));
+    if (sets > 0 && lamp_set > sets)
+        text.refuse(fmt::format("{0} sets of lamps, for lamp_set {0}", lamp_set), fmt::format("{}", sets));
     double flux = 0;
     for (int set = 1; set <= sets; ++set) {
         (void)text.number_line("the number of lamps", 1);  // below 0: absolute photometry, of the luminaire as it is
@@ -58,7 +61,8 @@ double read_lamps(PhotometricText& text, int lamp_set, std::vector<std::string>&
         const double lumen = text.number_line("the lamps' flux");
         if (set == lamp_set) flux = lumen;
         if (set == lamp_set && !(flux > 0)) text.refuse("a flux of lamps above 0", fmt::format("{}", flux));
-        for (const char* what : {"the lamps' colour", "the lamps' colour rendering", "the lamps' power"}) (void)text.line(what);
+        for (const char* what : {"the lamps' colour", "the lamps' colour rendering", "the lamps' power"})
+            (void)text.line(what);
     }
     if (sets > 1) doubts.push_back(fmt::format("has {} sets of lamps: number {} is lit", sets, lamp_set));
     if (sets == 0) {
@@ -71,22 +75,31 @@ double read_lamps(PhotometricText& text, int lamp_set, std::vector<std::string>&
 
 std::size_t plane_count(Symmetry symmetry, std::size_t planes) {
     switch (symmetry) {
-        case Symmetry::none: return planes;
-        case Symmetry::about_axis: return 1;
+        case Symmetry::none:
+            return planes;
+        case Symmetry::about_axis:
+            return 1;
         case Symmetry::c0_c180:
-        case Symmetry::c90_c270: return planes / 2 + 1;
-        case Symmetry::both: return planes / 4 + 1;
+        case Symmetry::c90_c270:
+            return planes / 2 + 1;
+        case Symmetry::both:
+            return planes / 4 + 1;
     }
     return planes;
 }
 
 PlaneSymmetry plane_symmetry(Symmetry symmetry) {
     switch (symmetry) {
-        case Symmetry::none: return PlaneSymmetry::none;
-        case Symmetry::about_axis: return PlaneSymmetry::all_round;
-        case Symmetry::c0_c180: return PlaneSymmetry::mirrored_at_0_180;
-        case Symmetry::c90_c270: return PlaneSymmetry::mirrored_at_90_270;
-        case Symmetry::both: return PlaneSymmetry::quadrants;
+        case Symmetry::none:
+            return PlaneSymmetry::none;
+        case Symmetry::about_axis:
+            return PlaneSymmetry::all_round;
+        case Symmetry::c0_c180:
+            return PlaneSymmetry::mirrored_at_0_180;
+        case Symmetry::c90_c270:
+            return PlaneSymmetry::mirrored_at_90_270;
+        case Symmetry::both:
+            return PlaneSymmetry::quadrants;
     }
     return PlaneSymmetry::none;
 }
@@ -105,8 +118,9 @@ std::vector<double> given_planes(const PhotometricText& text, Symmetry symmetry,
     const std::size_t all = c_deg.size(), count = plane_count(symmetry, all);
     const auto require = [&](std::size_t index, double angle) {
         if (index < all && std::abs(c_deg[index] - angle) < same_angle_deg) return;
-        text.refuse(fmt::format("C{} as plane {} of {} (symmetry {})", angle, index + 1, all, static_cast<int>(symmetry)),
-                    index < all ? fmt::format("C{}", c_deg[index]) : std::string("none"));
+        text.refuse(
+            fmt::format("C{} as plane {} of {} (symmetry {})", angle, index + 1, all, static_cast<int>(symmetry)),
+            index < all ? fmt::format("C{}", c_deg[index]) : std::string("none"));
     };
     require(0, symmetry == Symmetry::about_axis ? c_deg.front() : 0);
     std::size_t first = 0;
@@ -126,9 +140,11 @@ void warn_of_ratios(const Declared& declared, const Luminaire& luminaire, std::v
     // Photometers and the steps of the angles are good to a few per cent (CIE S 025, 5).
     constexpr double tolerance = 0.05;
     const double ratio = 100 * luminaire.flux_lm / declared.lamp_flux_lm;
-    if (declared.output_ratio_percent > 0 && std::abs(ratio - declared.output_ratio_percent) > tolerance * declared.output_ratio_percent)
-        doubts.push_back(fmt::format("declares a light output ratio of {:g} %, its intensities make {:.1f} % of the lamps' {:g} lm",
-                                     declared.output_ratio_percent, ratio, declared.lamp_flux_lm));
+    if (declared.output_ratio_percent > 0 &&
+        std::abs(ratio - declared.output_ratio_percent) > tolerance * declared.output_ratio_percent)
+        doubts.push_back(
+            fmt::format("declares a light output ratio of {:g} %, its intensities make {:.1f} % of the lamps' {:g} lm",
+                        declared.output_ratio_percent, ratio, declared.lamp_flux_lm));
     const double down = luminaire.flux_lm > 0
                             ? 100 * integrated_flux_lm(luminaire.web, 0, std::numbers::pi / 2) / luminaire.flux_lm
                             : declared.downward_percent;
@@ -138,8 +154,8 @@ void warn_of_ratios(const Declared& declared, const Luminaire& luminaire, std::v
     if (!(luminaire.peak_cd > 0)) doubts.push_back("all intensities are 0");
 }
 
-void read_web(PhotometricText& text, Symmetry symmetry, int c_count, int g_count, double candela_a_value, Luminaire& luminaire,
-              std::vector<std::string>& doubts) {
+void read_web(PhotometricText& text, Symmetry symmetry, int c_count, int g_count, double candela_a_value,
+              Luminaire& luminaire, std::vector<std::string>& doubts) {
     constexpr int direct_ratios = 10;
     for (int i = 0; i < direct_ratios; ++i) (void)text.number_line("a direct ratio", 0);
     const std::vector<double> c_deg = text.numbers("C-plane", static_cast<std::size_t>(c_count), true);

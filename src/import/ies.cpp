@@ -79,8 +79,10 @@ void read_tilt(PhotometricText& text, Luminaire& luminaire) {
         if (factor < 0) text.refuse("a tilt factor of at least 0", fmt::format("{}", factor));
 }
 
-void read_tilt_file(const std::string& file, const PhotometricText& text, const std::filesystem::path& folder, Luminaire& luminaire) {
-    if (file.empty() || file.find('\0') != std::string::npos) text.refuse("TILT=NONE, TILT=INCLUDE or TILT=FILE", "no file");
+void read_tilt_file(const std::string& file, const PhotometricText& text, const std::filesystem::path& folder,
+                    Luminaire& luminaire) {
+    if (file.empty() || file.find('\0') != std::string::npos)
+        text.refuse("TILT=NONE, TILT=INCLUDE or TILT=FILE", "no file");
     const std::filesystem::path path = folder / file;
     Result<std::string> bytes = read_file(path);
     if (!bytes) refuse(text.where(), bytes.error().text());
@@ -106,10 +108,14 @@ LuminousOpening opening_of(double width, double length, double height, int year,
         opening.size_m = {};
         return opening;
     }
-    if (round == 0) opening.shape = OpeningShape::box;
-    else if (round == 3) opening.shape = OpeningShape::ellipsoid;
+    if (round == 0)
+        opening.shape = OpeningShape::box;
+    else if (round == 3)
+        opening.shape = OpeningShape::ellipsoid;
     else if (round == 2)
-        opening.shape = width >= 0 ? OpeningShape::cylinder_z : length >= 0 ? OpeningShape::cylinder_x : OpeningShape::cylinder_y;
+        opening.shape = width >= 0    ? OpeningShape::cylinder_z
+                        : length >= 0 ? OpeningShape::cylinder_x
+                                      : OpeningShape::cylinder_y;
     else if (height >= 0)
         opening.shape = OpeningShape::cylinder_y;  // (−W, L, …): an ellipse before 2002
     else {
@@ -124,9 +130,12 @@ struct Angles {
     PlaneSymmetry symmetry = PlaneSymmetry::none;
 };
 
-bool near(double a, double b) { return std::abs(a - b) < same_angle_deg; }
+bool near(double a, double b) {
+    return std::abs(a - b) < same_angle_deg;
+}
 
-void check_rising(const PhotometricText& text, std::string_view what, std::span<const double> angles, double low, double high) {
+void check_rising(const PhotometricText& text, std::string_view what, std::span<const double> angles, double low,
+                  double high) {
     for (std::size_t i = 0; i < angles.size(); ++i) {
         if (angles[i] < low - same_angle_deg || angles[i] > high + same_angle_deg)
             text.refuse(fmt::format("{} angles from {} to {}", what, low, high), fmt::format("{}", angles[i]));
@@ -136,11 +145,13 @@ void check_rising(const PhotometricText& text, std::string_view what, std::span<
 }
 
 /// LM-63-2002, section 5.13: what the last horizontal angle says.
-PlaneSymmetry symmetry_of_type_c(const PhotometricText& text, std::vector<double>& horizontal, std::vector<std::string>& doubts) {
+PlaneSymmetry symmetry_of_type_c(const PhotometricText& text, std::vector<double>& horizontal,
+                                 std::vector<std::string>& doubts) {
     if (horizontal.size() == 1) return PlaneSymmetry::all_round;
     const double first = horizontal.front(), last = horizontal.back();
     if (near(first, 90) && near(last, 270)) return PlaneSymmetry::mirrored_at_90_270;
-    if (!near(first, 0)) text.refuse("horizontal angles that begin at 0, or run from 90 to 270", fmt::format("{} to {}", first, last));
+    if (!near(first, 0))
+        text.refuse("horizontal angles that begin at 0, or run from 90 to 270", fmt::format("{} to {}", first, last));
     if (near(last, 90)) return PlaneSymmetry::quadrants;
     if (near(last, 180)) return PlaneSymmetry::mirrored_at_0_180;
     if (near(last, 360)) return PlaneSymmetry::none;
@@ -151,7 +162,8 @@ PlaneSymmetry symmetry_of_type_c(const PhotometricText& text, std::vector<double
     return PlaneSymmetry::none;
 }
 
-Angles read_angles(PhotometricText& text, PhotometryType type, int vertical, int horizontal, std::vector<std::string>& doubts) {
+Angles read_angles(PhotometricText& text, PhotometryType type, int vertical, int horizontal,
+                   std::vector<std::string>& doubts) {
     Angles angles;
     angles.vertical_deg = text.numbers("vertical angle", static_cast<std::size_t>(vertical), false);
     const bool is_c = type == PhotometryType::c;
@@ -194,8 +206,9 @@ void warn_of_flux(const Data& data, const Luminaire& luminaire, std::vector<std:
     constexpr double tolerance = 0.05;
     const double lamps = data.lamps * data.lumens_a_lamp * data.factor;
     if (data.lumens_a_lamp > 0 && luminaire.flux_lm > lamps * (1 + tolerance))
-        doubts.push_back(fmt::format("the intensities make {:.1f} lm, more than the {:.1f} lm that the lamps are said to give",
-                                     luminaire.flux_lm, lamps));
+        doubts.push_back(
+            fmt::format("the intensities make {:.1f} lm, more than the {:.1f} lm that the lamps are said to give",
+                        luminaire.flux_lm, lamps));
     if (!(luminaire.peak_cd > 0)) doubts.push_back("all intensities are 0");
 }
 
@@ -238,8 +251,10 @@ Luminaire read_ies(PhotometricText& text, const std::filesystem::path& folder, W
     luminaire.name = named != header.keywords.end() ? named->second : std::string();
     std::vector<std::string> doubts;
     const std::string tilt = upper(header.tilt);
-    if (tilt == "INCLUDE") read_tilt(text, luminaire);
-    else if (tilt != "NONE") read_tilt_file(header.tilt, text, folder, luminaire);
+    if (tilt == "INCLUDE")
+        read_tilt(text, luminaire);
+    else if (tilt != "NONE")
+        read_tilt_file(header.tilt, text, folder, luminaire);
 
     Data data;
     data.lamps = text.whole("the number of lamps", 0, most_angles);
@@ -254,7 +269,8 @@ Luminaire read_ies(PhotometricText& text, const std::filesystem::path& folder, W
     const double length = text.number("the length of the opening") * unit_m;
     const double height = text.number("the height of the opening") * unit_m;
     luminaire.opening = opening_of(width, length, height, header.year, doubts);
-    const double ballast = text.number("the ballast factor"), other = text.number("the ballast-lamp photometric factor");
+    const double ballast = text.number("the ballast factor"),
+                 other = text.number("the ballast-lamp photometric factor");
     (void)text.number("the input watts");
     // The second factor went out of use in 2002; since 2019 its place says how the file was made.
     data.factor = ballast * (header.year < 2002 ? other : 1.0);

@@ -19,7 +19,8 @@ struct Reader {
     tests::TemporaryFolder folder;
     Warnings warnings;
 
-    Result<std::shared_ptr<const Luminaire>> load(const std::string& text, const std::string& name = "l.ies", int lamp_set = 1) {
+    Result<std::shared_ptr<const Luminaire>> load(const std::string& text, const std::string& name = "l.ies",
+                                                  int lamp_set = 1) {
         warnings.clear();
         return load_luminaire(folder.write(name, text), lamp_set, warnings);
     }
@@ -58,9 +59,9 @@ double candela(const Luminaire& luminaire, double c_deg, double gamma_deg) {
 
 struct Known {
     const char* file;
-    double flux_lm;    ///< or the share of the lamps' flux
-    double lamps_lm;   ///< 1 where flux_lm is a flux
-    double peak_cd;    ///< 0: not published
+    double flux_lm;   ///< or the share of the lamps' flux
+    double lamps_lm;  ///< 1 where flux_lm is a flux
+    double peak_cd;   ///< 0: not published
     const char* opening;
     bool contradicts_itself;
 };
@@ -74,31 +75,35 @@ TEST_P(SharedLuminaire, HasThePublishedFluxAndWarnsWhereItContradictsItself) {
     const auto luminaire = load_luminaire(*path, 1, warnings);
     ASSERT_TRUE(luminaire) << luminaire.error().text();
     const double expected = known.flux_lm * known.lamps_lm;
-    std::printf("             %.4f lm, %.5f of what is published\n", (*luminaire)->flux_lm, (*luminaire)->flux_lm / expected);
+    std::printf("             %.4f lm, %.5f of what is published\n", (*luminaire)->flux_lm,
+                (*luminaire)->flux_lm / expected);
     EXPECT_NEAR((*luminaire)->flux_lm, expected, 0.001 * expected);
-    if (known.peak_cd > 0) { EXPECT_NEAR((*luminaire)->peak_cd, known.peak_cd, 0.001 * known.peak_cd); }
+    if (known.peak_cd > 0) {
+        EXPECT_NEAR((*luminaire)->peak_cd, known.peak_cd, 0.001 * known.peak_cd);
+    }
     EXPECT_EQ(describe((*luminaire)->opening), known.opening);
     bool contradicts = false;
     for (const Error& warning : warnings) contradicts |= warning.message.find("intensities") != std::string::npos;
     EXPECT_EQ(contradicts, known.contradicts_itself) << (warnings.empty() ? "" : warnings.front().text());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Files, SharedLuminaire,
-    testing::Values(Known{"maxwell-8-led.ies", 999.9, 1, 424.7, "point", false},
-                    Known{"indoor-60w.ies", 5300.8, 1, 1917.1, "disc", false},
-                    Known{"ABSOLUTE_LED.ies", 5174.1, 1, 3500, "box", false},
-                    Known{"floor_uplight.ldt", 0.7266, 20000, 0, "disc", false},
-                    Known{"fluorescent_luminaire.ldt", 0.4028, 8100, 0, "rectangle", false},
-                    Known{"road_luminaire.ldt", 0.8414, 33200, 0, "cylinder", false},
-                    Known{"projector.ldt", 0.7935, 6500, 0, "rectangle", false},
-                    // Declares 90 %.
-                    Known{"wiki-spotlight.ldt", 0.767, 1500, 0, "point", true}),
-    [](const auto& info) {
-        std::string name = info.param.file;
-        std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-        return name;
-    });
+INSTANTIATE_TEST_SUITE_P(Files, SharedLuminaire,
+                         testing::Values(Known{"maxwell-8-led.ies", 999.9, 1, 424.7, "point", false},
+                                         Known{"indoor-60w.ies", 5300.8, 1, 1917.1, "disc", false},
+                                         Known{"ABSOLUTE_LED.ies", 5174.1, 1, 3500, "box", false},
+                                         Known{"floor_uplight.ldt", 0.7266, 20000, 0, "disc", false},
+                                         Known{"fluorescent_luminaire.ldt", 0.4028, 8100, 0, "rectangle", false},
+                                         Known{"road_luminaire.ldt", 0.8414, 33200, 0, "cylinder", false},
+                                         Known{"projector.ldt", 0.7935, 6500, 0, "rectangle", false},
+                                         // Declares 90 %.
+                                         Known{"wiki-spotlight.ldt", 0.767, 1500, 0, "point", true}),
+                         [](const auto& info) {
+                             std::string name = info.param.file;
+                             std::replace_if(
+                                 name.begin(), name.end(),
+                                 [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+                             return name;
+                         });
 
 TEST(Luminaires, TheTiltOfTheSharedFileIsAFactorOfTheWholeAndOfTwoLampSetsOneIsLit) {
     const auto tilted = tests::shared_path("photometry/TILT_TEST_SYNTHETIC.ies");
@@ -116,7 +121,8 @@ TEST(Luminaires, TheTiltOfTheSharedFileIsAFactorOfTheWholeAndOfTwoLampSetsOneIsL
     EXPECT_NEAR((*second)->flux_lm / (*first)->flux_lm, 10080.0 / 9408.0, 1e-9);
     const auto third = load_luminaire(*two, 3, warnings);
     ASSERT_FALSE(third);
-    EXPECT_NE(third.error().text().find("expected 3 sets of lamps, for lamp_set 3, found 2"), std::string::npos) << third.error().text();
+    EXPECT_NE(third.error().text().find("expected 3 sets of lamps, for lamp_set 3, found 2"), std::string::npos)
+        << third.error().text();
 }
 
 // -- IES
@@ -131,7 +137,8 @@ struct Ies {
     std::string values = "100 80 40";
 
     [[nodiscard]] std::string text() const {
-        return first + counts + " " + opening + "\n" + factors + "\n" + vertical + "\n" + horizontal + "\n" + values + "\n";
+        return first + counts + " " + opening + "\n" + factors + "\n" + vertical + "\n" + horizontal + "\n" + values +
+               "\n";
     }
 };
 
@@ -189,7 +196,7 @@ TEST(Ies, TypesAAndBShineIntoOneHalfSpace) {
     ies.values = "1 5 1  1 2 1";
     const Luminaire a = reader.read(ies.text());
     EXPECT_EQ(a.web.axis, PhotometricWeb::Axis::vertical);
-    EXPECT_EQ(candela(a, 0, 90), 5);   // photometric horizontal: C0, γ 90
+    EXPECT_EQ(candela(a, 0, 90), 5);          // photometric horizontal: C0, γ 90
     EXPECT_EQ(a.web.azimuth_rad.size(), 6u);  // 0 90 90 270 270 360
     ies.counts = "1 1000 1 3 2 2 2";
     const Luminaire b = reader.read(ies.text());
@@ -201,7 +208,8 @@ TEST(Ies, TypesAAndBShineIntoOneHalfSpace) {
     ies.horizontal = "-90 90";
     EXPECT_NEAR(reader.read(ies.text()).flux_lm, 2 * pi * 3, 1e-9);
     ies.horizontal = "0 60";
-    EXPECT_EQ(reader.error(ies.text()), "l.ies:8: expected horizontal angles from 0 or -90 to 90 (type A or B), found 0 to 60");
+    EXPECT_EQ(reader.error(ies.text()),
+              "l.ies:8: expected horizontal angles from 0 or -90 to 90 (type A or B), found 0 to 60");
 }
 
 TEST(Ies, MultiplierAndBallastFactorsScaleAsEachStandardHasThem) {
@@ -212,7 +220,8 @@ TEST(Ies, MultiplierAndBallastFactorsScaleAsEachStandardHasThem) {
     EXPECT_NEAR(reader.read(ies.text()).peak_cd, 150, 1e-9);
     ies.first = "IES:LM-63-2019\nTILT=NONE\n";
     EXPECT_NEAR(reader.read(ies.text()).peak_cd, 150, 1e-9);
-    for (const char* old : {"IESNA:LM-63-1995\nTILT=NONE\n", "IESNA91\nTILT=NONE\n", "no standard named\nTILT=NONE\n"}) {
+    for (const char* old :
+         {"IESNA:LM-63-1995\nTILT=NONE\n", "IESNA91\nTILT=NONE\n", "no standard named\nTILT=NONE\n"}) {
         ies.first = old;
         EXPECT_NEAR(reader.read(ies.text()).peak_cd, 135, 1e-9) << old;
     }
@@ -330,31 +339,35 @@ TEST_P(IesFault, IsOneLocatedError) {
 
 INSTANTIATE_TEST_SUITE_P(
     Kinds, IesFault,
-    testing::Values(
-        Fault{"NoTilt", [](Ies& ies) { ies.first = "IESNA:LM-63-2002\n"; },
-              ":6: expected a line that begins with TILT=, found the end of the file"},
-        Fault{"Word", [](Ies& ies) { ies.values = "100 eighty 40"; }, ":9: expected intensity 2 of 3, found \"eighty\""},
-        Fault{"TooFew", [](Ies& ies) { ies.values = "100 80"; }, ":9: expected intensity 3 of 3, found the end of the file"},
-        Fault{"NotANumber", [](Ies& ies) { ies.values = "100 nan 40"; }, ":9: expected intensity 2 of 3, found \"nan\""},
-        Fault{"TooLarge", [](Ies& ies) { ies.values = "100 1e300 40"; }, ":9: expected intensity 2 of 3, found \"1e300\""},
-        Fault{"HugeCount", [](Ies& ies) { ies.counts = "1 1000 1 99999 1 1 2"; },
-              ":6: expected 99999 vertical angles, found fewer characters in the whole file"},
-        Fault{"FractionOfAnAngle", [](Ies& ies) { ies.counts = "1 1000 1 2.5 1 1 2"; },
-              ":5: expected the count of vertical angles (a whole number from 2 to 100000), found 2.5"},
-        Fault{"FallingAngles", [](Ies& ies) { ies.vertical = "0 90 45"; }, ":7: expected vertical angles that rise, found 45 after 90"},
-        Fault{"AnglesBeyondTheZenith", [](Ies& ies) { ies.vertical = "0 90 190"; },
-              ":7: expected vertical angles from 0 to 180, found 190"},
-        Fault{"NoMultiplier", [](Ies& ies) { ies.counts = "1 1000 0 3 1 1 2"; },
-              ":5: expected a multiplier of intensities above 0, found 0"},
-        Fault{"TypeFour", [](Ies& ies) { ies.counts = "1 1000 1 3 1 4 2"; },
-              ":5: expected the type of photometry (a whole number from 1 to 3), found 4"},
-        Fault{"Symmetry",
-              [](Ies& ies) {
-                  ies.counts = "1 1000 1 3 2 1 2";
-                  ies.horizontal = "0 70";
-                  ies.values = "1 1 1 1 1 1";
-              },
-              ":8: expected horizontal angles that end at 0, 90, 180 or 360, found 70"}),
+    testing::Values(Fault{"NoTilt", [](Ies& ies) { ies.first = "IESNA:LM-63-2002\n"; },
+                          ":6: expected a line that begins with TILT=, found the end of the file"},
+                    Fault{"Word", [](Ies& ies) { ies.values = "100 eighty 40"; },
+                          ":9: expected intensity 2 of 3, found \"eighty\""},
+                    Fault{"TooFew", [](Ies& ies) { ies.values = "100 80"; },
+                          ":9: expected intensity 3 of 3, found the end of the file"},
+                    Fault{"NotANumber", [](Ies& ies) { ies.values = "100 nan 40"; },
+                          ":9: expected intensity 2 of 3, found \"nan\""},
+                    Fault{"TooLarge", [](Ies& ies) { ies.values = "100 1e300 40"; },
+                          ":9: expected intensity 2 of 3, found \"1e300\""},
+                    Fault{"HugeCount", [](Ies& ies) { ies.counts = "1 1000 1 99999 1 1 2"; },
+                          ":6: expected 99999 vertical angles, found fewer characters in the whole file"},
+                    Fault{"FractionOfAnAngle", [](Ies& ies) { ies.counts = "1 1000 1 2.5 1 1 2"; },
+                          ":5: expected the count of vertical angles (a whole number from 2 to 100000), found 2.5"},
+                    Fault{"FallingAngles", [](Ies& ies) { ies.vertical = "0 90 45"; },
+                          ":7: expected vertical angles that rise, found 45 after 90"},
+                    Fault{"AnglesBeyondTheZenith", [](Ies& ies) { ies.vertical = "0 90 190"; },
+                          ":7: expected vertical angles from 0 to 180, found 190"},
+                    Fault{"NoMultiplier", [](Ies& ies) { ies.counts = "1 1000 0 3 1 1 2"; },
+                          ":5: expected a multiplier of intensities above 0, found 0"},
+                    Fault{"TypeFour", [](Ies& ies) { ies.counts = "1 1000 1 3 1 4 2"; },
+                          ":5: expected the type of photometry (a whole number from 1 to 3), found 4"},
+                    Fault{"Symmetry",
+                          [](Ies& ies) {
+                              ies.counts = "1 1000 1 3 2 1 2";
+                              ies.horizontal = "0 70";
+                              ies.values = "1 1 1 1 1 1";
+                          },
+                          ":8: expected horizontal angles that end at 0, 90, 180 or 360, found 70"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(Ies, NegativeIntensitiesAreNoneAndWhatFollowsIsNotRead) {
@@ -382,9 +395,9 @@ struct Ldt {
     std::string values = "100\n80\n40\n";
 
     [[nodiscard]] std::string text() const {
-        return "Maker\n1\n" + std::to_string(symmetry) + "\n" + std::to_string(planes) + "\n0\n" + std::to_string(angles) +
-               "\n0\nreport\nname\nnumber\nfile\ndate\n100\n100\n50\n" + area + ratios + lamps + "0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n" + c +
-               gamma + values;
+        return "Maker\n1\n" + std::to_string(symmetry) + "\n" + std::to_string(planes) + "\n0\n" +
+               std::to_string(angles) + "\n0\nreport\nname\nnumber\nfile\ndate\n100\n100\n50\n" + area + ratios +
+               lamps + "0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n" + c + gamma + values;
     }
     static Ldt of(int symmetry, int planes) {
         Ldt ldt;
@@ -420,13 +433,16 @@ TEST(Eulumdat, EverySymmetryGivesThePlanesThatItStandsFor) {
     ldt = Ldt::of(2, 4);
     ldt.values = "1 10\n1 20\n1 30\n";
     luminaire = reader.read(ldt.text(), "l.ldt");
-    for (const auto& [c, value] : {std::pair{0, 20}, {90, 40}, {180, 60}, {270, 40}}) EXPECT_NEAR(candela(luminaire, c, 90), value, 1e-9) << c;
+    for (const auto& [c, value] : {std::pair{0, 20}, {90, 40}, {180, 60}, {270, 40}})
+        EXPECT_NEAR(candela(luminaire, c, 90), value, 1e-9) << c;
     ldt = Ldt::of(3, 4);  // begins at C270
     luminaire = reader.read(ldt.text() + "1 10\n1 20\n1 30\n", "l.ldt");
-    for (const auto& [c, value] : {std::pair{270, 20}, {0, 40}, {90, 60}, {180, 40}}) EXPECT_NEAR(candela(luminaire, c, 90), value, 1e-9) << c;
+    for (const auto& [c, value] : {std::pair{270, 20}, {0, 40}, {90, 60}, {180, 40}})
+        EXPECT_NEAR(candela(luminaire, c, 90), value, 1e-9) << c;
     ldt = Ldt::of(4, 8);
     luminaire = reader.read(ldt.text() + "1 10\n1 20\n1 30\n", "l.ldt");
-    for (const auto& [c, value] : {std::pair{0, 20}, {45, 40}, {90, 60}, {135, 40}, {180, 20}, {225, 40}, {270, 60}, {315, 40}})
+    for (const auto& [c, value] :
+         {std::pair{0, 20}, {45, 40}, {90, 60}, {135, 40}, {180, 20}, {225, 40}, {270, 60}, {315, 40}})
         EXPECT_NEAR(candela(luminaire, c, 90), value, 1e-9) << c;
 }
 
@@ -470,17 +486,21 @@ TEST(Eulumdat, FaultsAreLocated) {
         return reader.error(ldt.text(), "l.ldt");
     };
     EXPECT_EQ(error([](Ldt&) {}), "no error");
-    EXPECT_EQ(error([](Ldt& l) { l.symmetry = 5; }), "l.ldt:3: expected the symmetry (a whole number from 0 to 4), found 5");
+    EXPECT_EQ(error([](Ldt& l) { l.symmetry = 5; }),
+              "l.ldt:3: expected the symmetry (a whole number from 0 to 4), found 5");
     EXPECT_EQ(error([](Ldt& l) { l.planes = 0; }),
               "l.ldt:4: expected the number of C-planes (a whole number from 1 to 10000), found 0");
     EXPECT_EQ(error([](Ldt& l) { l.area = "-1\n0\n0\n0\n0\n0\n"; }),
               "l.ldt:16: expected the luminous area's length of at least 0, found -1");
-    EXPECT_EQ(error([](Ldt& l) { l.lamps = "1\n1\nLED\nmany\n\n\n\n"; }), "l.ldt:29: expected the lamps' flux, found \"many\"");
-    EXPECT_EQ(error([](Ldt& l) { l.lamps = "1\n1\nLED\n0\n\n\n\n"; }), "l.ldt:29: expected a flux of lamps above 0, found 0");
+    EXPECT_EQ(error([](Ldt& l) { l.lamps = "1\n1\nLED\nmany\n\n\n\n"; }),
+              "l.ldt:29: expected the lamps' flux, found \"many\"");
+    EXPECT_EQ(error([](Ldt& l) { l.lamps = "1\n1\nLED\n0\n\n\n\n"; }),
+              "l.ldt:29: expected a flux of lamps above 0, found 0");
     EXPECT_EQ(error([](Ldt& l) { l.c = "0\n90\n170\n270\n"; }),
               "l.ldt:46: expected C180 as plane 3 of 4 (symmetry 2), found C170");
     EXPECT_EQ(error([](Ldt& l) { l.gamma = "0\n0\n"; }), "l.ldt:48: expected gamma angles that rise, found 0 after 0");
-    EXPECT_EQ(error([](Ldt& l) { l.values = "1\n2\n1\n2\n1\n"; }), "l.ldt:53: expected intensity 6 of 6, found the end of the file");
+    EXPECT_EQ(error([](Ldt& l) { l.values = "1\n2\n1\n2\n1\n"; }),
+              "l.ldt:53: expected intensity 6 of 6, found the end of the file");
     EXPECT_EQ(reader.error("", "l.ldt"), "l.ldt:1: expected the manufacturer, found the end of the file");
 }
 
@@ -513,7 +533,8 @@ TEST(Luminaires, CutOrDamagedAnywhereTheyAreRefusedOrRead) {
     ies.first = "IESNA:LM-63-2002\nTILT=INCLUDE\n1\n2\n0 90\n1 .5\n";
     ies.opening = "-.2 -.2 0";
     int read = 0;
-    for (const auto& [name, text] : {std::pair<std::string, std::string>{"l.ies", ies.text()}, {"l.ldt", Ldt{}.text()}}) {
+    for (const auto& [name, text] :
+         {std::pair<std::string, std::string>{"l.ies", ies.text()}, {"l.ldt", Ldt{}.text()}}) {
         const auto look = [&](const std::string& bytes) {
             const auto luminaire = reader.load(bytes, name);
             if (!luminaire) {

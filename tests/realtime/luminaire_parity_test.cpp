@@ -76,8 +76,10 @@ TEST_F(LuminaireUpdate, ALuminaireThatComesLaterIsSeenAndOneThatGoesIsNot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shared, LuminaireParity,
-                         testing::Values(Lit{"maxwell-8-led.ies", "Point", 2.4f, 6}, Lit{"fluorescent_luminaire.ldt", "Rectangle", 2.4f, 8},
-                                         Lit{"road_luminaire.ldt", "Cylinder", 2.4f, 11}, Lit{"ABSOLUTE_LED.ies", "Box", 2.4f, 9},
+                         testing::Values(Lit{"maxwell-8-led.ies", "Point", 2.4f, 6},
+                                         Lit{"fluorescent_luminaire.ldt", "Rectangle", 2.4f, 8},
+                                         Lit{"road_luminaire.ldt", "Cylinder", 2.4f, 11},
+                                         Lit{"ABSOLUTE_LED.ies", "Box", 2.4f, 9},
                                          Lit{"floor_uplight.ldt", "DiscUpwards", 1.2f, 9.5f}),
                          [](const auto& info) { return std::string(info.param.name); });
 

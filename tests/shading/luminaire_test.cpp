@@ -25,7 +25,8 @@ Photometry photometry() {
     Photometry result;
     result.table = {polar_count, azimuth_count};
     for (int i = 0; i < polar_count; ++i) result.table.push_back(static_cast<float>(i) * pi / (polar_count - 1));
-    for (int i = 0; i < azimuth_count; ++i) result.table.push_back(static_cast<float>(i) * 2 * pi / (azimuth_count - 1));
+    for (int i = 0; i < azimuth_count; ++i)
+        result.table.push_back(static_cast<float>(i) * 2 * pi / (azimuth_count - 1));
     for (int a = 0; a < azimuth_count; ++a)
         for (int p = 0; p < polar_count; ++p) {
             const float down = std::cos(static_cast<float>(p) * pi / (polar_count - 1));
@@ -40,11 +41,12 @@ struct Opening {
     uint shape;
     vec3 half_extent;
 };
-const std::array openings{Opening{"box", opening_box, {0.3f, 0.1f, 0.2f}},          Opening{"rectangle", opening_box, {0.3f, 0.1f, 0}},
-                          Opening{"wall", opening_box, {0, 0.4f, 0.1f}},            Opening{"disc", opening_cylinder_z, {0.3f, 0.3f, 0}},
-                          Opening{"drum", opening_cylinder_z, {0.3f, 0.2f, 0.1f}},  Opening{"tube", opening_cylinder_x, {0.5f, 0.1f, 0.15f}},
-                          Opening{"pipe", opening_cylinder_y, {0.1f, 0.5f, 0.1f}},  Opening{"sphere", opening_ellipsoid, {0.2f, 0.2f, 0.2f}},
-                          Opening{"egg", opening_ellipsoid, {0.1f, 0.3f, 0.2f}}};
+const std::array openings{
+    Opening{"box", opening_box, {0.3f, 0.1f, 0.2f}},         Opening{"rectangle", opening_box, {0.3f, 0.1f, 0}},
+    Opening{"wall", opening_box, {0, 0.4f, 0.1f}},           Opening{"disc", opening_cylinder_z, {0.3f, 0.3f, 0}},
+    Opening{"drum", opening_cylinder_z, {0.3f, 0.2f, 0.1f}}, Opening{"tube", opening_cylinder_x, {0.5f, 0.1f, 0.15f}},
+    Opening{"pipe", opening_cylinder_y, {0.1f, 0.5f, 0.1f}}, Opening{"sphere", opening_ellipsoid, {0.2f, 0.2f, 0.2f}},
+    Opening{"egg", opening_ellipsoid, {0.1f, 0.3f, 0.2f}}};
 
 LightData luminaire(const Opening& opening) {
     LightData light{};
@@ -86,8 +88,8 @@ protected:
 /// Places outside: near each face, in line with it, and far.
 std::vector<vec3> receivers(const Opening& opening) {
     const vec3 h = opening.half_extent;
-    return {vec3(0.05f, 0.02f, h.z + 0.05f),   vec3(h.x + 0.02f, 0.01f, -0.03f), vec3(-h.x - 0.3f, h.y + 0.2f, h.z + 0.4f),
-            vec3(0.03f, -h.y - 0.1f, h.z + 0.01f), vec3(2, -1, -3)};
+    return {vec3(0.05f, 0.02f, h.z + 0.05f), vec3(h.x + 0.02f, 0.01f, -0.03f),
+            vec3(-h.x - 0.3f, h.y + 0.2f, h.z + 0.4f), vec3(0.03f, -h.y - 0.1f, h.z + 0.01f), vec3(2, -1, -3)};
 }
 
 // The solid angle of the opening in cells of directions: from the density of what is sampled, against directions picked
@@ -96,7 +98,9 @@ TEST_P(Openings, AreSampledWithTheDensityThatTheySay) {
     constexpr int samples = 60000, cells_a_side = 4, cells = cells_a_side * cells_a_side;
     for (const vec3 from : receivers(opening_)) {
         const vec3 center = normalize(-from);
-        const float cap = std::min(2.0f, 2.2f * (1 - std::sqrt(1 - std::min(1.0f, dot(light_.half_extent, light_.half_extent) / dot(from, from)))));
+        const float cap = std::min(
+            2.0f,
+            2.2f * (1 - std::sqrt(1 - std::min(1.0f, dot(light_.half_extent, light_.half_extent) / dot(from, from)))));
         const Frame frame = frame_from_normal(center);
         const auto cell_of = [&](vec3 direction) {
             const vec3 local = to_local(frame, direction);
@@ -116,7 +120,9 @@ TEST_P(Openings, AreSampledWithTheDensityThatTheySay) {
             // At its edge, where the side of a cylinder is seen end on, one rounding error is a large share.
             if (hit.t > 0 && std::abs(dot(hit.normal, sampled.direction)) > 0.05f) {
                 EXPECT_NEAR(hit.t, sampled.t, 2e-3f * sampled.t) << opening_.name;
-                EXPECT_NEAR(opening_pdf(opening_.shape, opening_.half_extent, from, sampled.direction, hit) / sampled.pdf, 1, 0.02)
+                EXPECT_NEAR(
+                    opening_pdf(opening_.shape, opening_.half_extent, from, sampled.direction, hit) / sampled.pdf, 1,
+                    0.02)
                     << opening_.name;
             }
             const vec3 direction = to_world(frame, sample_cone(random_.pair(), cap));
@@ -126,7 +132,8 @@ TEST_P(Openings, AreSampledWithTheDensityThatTheySay) {
         }
         double worst = 0;
         for (std::size_t cell = 0; cell < cells; ++cell)
-            worst = std::max(worst, std::abs(sampled_covered[cell] - covered[cell]) / std::sqrt(variance[cell] + one * one));
+            worst = std::max(worst,
+                             std::abs(sampled_covered[cell] - covered[cell]) / std::sqrt(variance[cell] + one * one));
         EXPECT_LT(worst, 4.5) << opening_.name << " from " << from.x << ' ' << from.y << ' ' << from.z;
     }
 }
@@ -142,13 +149,16 @@ TEST_P(Openings, HaveTheOutlineThatTheirSurfaceHas) {
         sum += std::max(dot(point.weighted_normal, direction), 0.0f);
         for (int k = 0; k < 3; ++k) EXPECT_LE(std::abs(point.position[k]), opening_.half_extent[k] * 1.0001f);
     }
-    if (!opening_is_flat(opening_.half_extent)) { EXPECT_NEAR(sum / samples / area, 1, 0.01) << opening_.name; }
+    if (!opening_is_flat(opening_.half_extent)) {
+        EXPECT_NEAR(sum / samples / area, 1, 0.01) << opening_.name;
+    }
     // And rays that meet it cover as much.
     const Frame frame = frame_from_normal(direction);
     const float side = 1.2f;
     int met = 0;
     for (int i = 0; i < samples; ++i) {
-        const vec3 from = direction * 3.0f + frame.tangent * (side * (random_.number() - 0.5f)) + frame.bitangent * (side * (random_.number() - 0.5f));
+        const vec3 from = direction * 3.0f + frame.tangent * (side * (random_.number() - 0.5f)) +
+                          frame.bitangent * (side * (random_.number() - 0.5f));
         met += opening_intersect(opening_.shape, opening_.half_extent, from, -direction).t > 0;
     }
     const double share = area / (side * side);
@@ -161,9 +171,11 @@ double interpolated_flux(Photometry& photometry, const LightData& light) {
     double sum = 0;
     for (int i = 0; i < rings; ++i)
         for (int k = 0; k < sectors; ++k) {
-            const float polar = (static_cast<float>(i) + 0.5f) * pi / rings, azimuth = (static_cast<float>(k) + 0.5f) * 2 * pi / sectors;
+            const float polar = (static_cast<float>(i) + 0.5f) * pi / rings,
+                        azimuth = (static_cast<float>(k) + 0.5f) * 2 * pi / sectors;
             const vec3 local(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
-            sum += photometry.luminaire_intensity(light, photometry.luminaire_to_world(light, local)).x * std::sin(polar);
+            sum +=
+                photometry.luminaire_intensity(light, photometry.luminaire_to_world(light, local)).x * std::sin(polar);
         }
     return sum * pi / rings * 2 * pi / sectors;
 }
@@ -177,7 +189,8 @@ TEST_P(Openings, SendTheirWholeFluxThroughASphereRoundThem) {
         double sum = 0, squares = 0;
         for (int i = 0; i < places; ++i) {
             const vec3 outward = random_.direction();
-            const LightSample arriving = photometry_.any_light_sample(light_, light_.position + distance * outward, random_.pair());
+            const LightSample arriving =
+                photometry_.any_light_sample(light_, light_.position + distance * outward, random_.pair());
             const double lux = arriving.value.x * std::max(-dot(arriving.direction, outward), 0.0f);
             sum += lux;
             squares += lux * lux;
@@ -208,7 +221,8 @@ TEST_P(Openings, LightFromFarAsAPointDoes) {
     // Their points, each alone, make the same in the mean.
     double points = 0;
     for (int i = 0; i < samples; ++i) {
-        const OpeningPoint one = opening_surface_point(light_.opening, light_.half_extent, face_weights(opening_), random_.pair());
+        const OpeningPoint one =
+            opening_surface_point(light_.opening, light_.half_extent, face_weights(opening_), random_.pair());
         LightData stand_in = point;
         stand_in.position += photometry_.luminaire_to_world(light_, one.position);
         stand_in.weighted_normal = photometry_.luminaire_to_world(light_, one.weighted_normal);
@@ -224,7 +238,8 @@ TEST_P(Openings, AreSeenByRaysWithTheRadianceThatSamplingFinds) {
         const float t = photometry_.any_light_intersect(light_, place, arriving.direction);
         if (t < 0) continue;  // at an edge
         EXPECT_NEAR(t, arriving.distance, 2e-3f * t);
-        EXPECT_NEAR(photometry_.any_light_radiance(light_, arriving.direction).x / (arriving.value.x * arriving.pdf), 1, 1e-3);
+        EXPECT_NEAR(photometry_.any_light_radiance(light_, arriving.direction).x / (arriving.value.x * arriving.pdf), 1,
+                    1e-3);
         EXPECT_NEAR(photometry_.any_light_pdf(light_, place, arriving.direction) / arriving.pdf, 1, 0.02);
     }
     EXPECT_LT(photometry_.any_light_intersect(light_, place, normalize(place - light_.position)), 0.0f);

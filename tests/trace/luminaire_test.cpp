@@ -27,7 +27,8 @@ Light light_of(std::shared_ptr<const Luminaire> luminaire) {
 
 /// 0 downwards, C0 to +x, C90 to −z.
 glm::vec3 direction(double c_rad, double gamma_rad) {
-    return glm::vec3(std::sin(gamma_rad) * std::cos(c_rad), -std::cos(gamma_rad), -std::sin(gamma_rad) * std::sin(c_rad));
+    return glm::vec3(std::sin(gamma_rad) * std::cos(c_rad), -std::cos(gamma_rad),
+                     -std::sin(gamma_rad) * std::sin(c_rad));
 }
 
 class LuminaireFile : public testing::TestWithParam<const char*> {};
@@ -63,7 +64,8 @@ TEST_P(LuminaireFile, SendsItsWholeFluxThroughTheWallsOfABlackRoom) {
     Scene scene;
     add_light(scene, light_of(luminaire), {0.1f, 0.25f, -0.1f});
     constexpr int cells = 24;
-    constexpr float half = 1.5f, step = 2 * half / cells;  // the lamp's horizon, where light may end, lies between cells
+    constexpr float half = 1.5f,
+                    step = 2 * half / cells;  // the lamp's horizon, where light may end, lies between cells
     for (int wall = 0; wall < 6; ++wall)
         for (int i = 0; i < cells; ++i)
             for (int k = 0; k < cells; ++k) {
@@ -111,8 +113,10 @@ TEST(Luminaire, ADiscOfEvenLuminanceIsAGlowingDisc) {
     constexpr float radius = 0.4f;
     const double nits = 200 / (pi * radius * radius);
     Scene scene, glowing;
-    add_light(scene, light_of(std::make_shared<const Luminaire>(downlight({OpeningShape::cylinder_y, {2 * radius, 0, 2 * radius}}))),
-              {0, 1, 0});
+    add_light(
+        scene,
+        light_of(std::make_shared<const Luminaire>(downlight({OpeningShape::cylinder_y, {2 * radius, 0, 2 * radius}}))),
+        {0, 1, 0});
     add_shape(glowing, Disk{{0, 1, 0}, {0, -1, 0}, radius}, lambert(0, static_cast<float>(nits)));
     for (Scene* each : {&scene, &glowing}) {
         for (const glm::vec3 place : {glm::vec3(0, 0.8f, 0), glm::vec3(0.5f, 0.5f, 0), glm::vec3(1, 0.9f, 0.3f)})
@@ -122,7 +126,8 @@ TEST(Luminaire, ADiscOfEvenLuminanceIsAGlowingDisc) {
     }
     const auto readings = measure(scene, 1 << 14), expected = measure(glowing, 1 << 14);
     for (std::size_t i = 0; i < 3; ++i)
-        EXPECT_NEAR(readings[i].value, expected[i].value, 0.003 * expected[i].value + 3 * readings[i].half_width_95) << i;
+        EXPECT_NEAR(readings[i].value, expected[i].value, 0.003 * expected[i].value + 3 * readings[i].half_width_95)
+            << i;
     EXPECT_NEAR(readings[3].value, nits, 2e-3 * nits);
     EXPECT_EQ(readings[4].value, 0);  // from above
 }
@@ -142,7 +147,8 @@ TEST(Luminaire, ASphereOfEvenIntensityIsASphereLight) {
     for (Scene* each : {&scene, &sphere}) {
         add_shape(*each, Quad{{-3, 0, -3}, {0, 0, 6}, {6, 0, 0}}, glossy);
         add_lux(*each, {0.2f, 0.6f, 0.1f}, glm::vec3(0, 1, 0));
-        add_sensor(*each, SensorType::luminance, {-1.2f, 0.9f, 0}, glm::vec3(1, -0.8f, 0));  // its reflection, by both strategies
+        add_sensor(*each, SensorType::luminance, {-1.2f, 0.9f, 0},
+                   glm::vec3(1, -0.8f, 0));  // its reflection, by both strategies
         add_sensor(*each, SensorType::luminance, {-1.2f, 0.9f, 0}, glm::vec3(1, 0.1f, 0));
     }
     const auto readings = measure(scene, 1 << 14), expected = measure(sphere, 1 << 14);
@@ -179,12 +185,15 @@ TEST(Luminaire, TypeBLooksDownAndTurnsAboutTheHorizontal) {
     integrate(luminaire);
     Scene scene;
     add_light(scene, light_of(std::make_shared<const Luminaire>(luminaire)), {0, 0, 0});
-    const std::pair<glm::vec3, double> expected[] = {{{0, -1, 0}, 10}, {{0, 0, -1}, 2}, {{0, 1, 0}, 3}, {{0, 0, 1}, 4}, {{-1, 0, 0}, 1}, {{1, 0, 0}, 5}};
+    const std::pair<glm::vec3, double> expected[] = {{{0, -1, 0}, 10}, {{0, 0, -1}, 2}, {{0, 1, 0}, 3},
+                                                     {{0, 0, 1}, 4},   {{-1, 0, 0}, 1}, {{1, 0, 0}, 5}};
     for (const auto& [away, candela] : expected) add_lux(scene, 4.0f * away, -away);
     const auto readings = measure(scene, 256, 1);
     for (std::size_t i = 0; i < readings.size(); ++i)
         // Edge on, the rectangle is not there. From below it is the mean over its own angles, about a peak.
-        if (std::abs(expected[i].first.y) > 0) { EXPECT_NEAR(readings[i].value * 16, expected[i].second, 0.02) << i; }
+        if (std::abs(expected[i].first.y) > 0) {
+            EXPECT_NEAR(readings[i].value * 16, expected[i].second, 0.02) << i;
+        }
     // The rectangle lies flat, along z.
     add_sensor(scene, SensorType::luminance, {0.004f, -1, 0.019f}, {0, 1, 0});
     add_sensor(scene, SensorType::luminance, {0.019f, -1, 0.004f}, {0, 1, 0});
