@@ -120,7 +120,7 @@ struct Case {
 
 TEST(BlueNoise, LowFrequenciesOfTheErrorFallAndItsSizeDoesNotRise) {
     for (const auto& [samples, max_depth, low] : {Case{1, 1, .5}, {4, 1, .8}, {1, 0, .75}, {4, 0, .9}}) {
-        const int pairs = samples == 1 ? 20 : 8;
+        const int pairs = 16;
         const Errors independent = errors_of(samples, false, max_depth, pairs);
         const Errors blue = errors_of(samples, true, max_depth, pairs);
         const std::string name = fmt::format("samples_{}_depth_{}", samples, max_depth);
