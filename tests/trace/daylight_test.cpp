@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <random>
 
 #include "convert/pack.h"
 #include "scene_building.h"
 #include "shading/cie_sky.h"
 #include "shading/sky.h"
+#include "trace/cpu_kernel.h"
 #include "trace/direction_guide.h"
 
 namespace heliodon::tests {
@@ -71,6 +73,63 @@ TEST(CieSkies, SceneryIsLitAlikeWhetherTheSkyIsAFormulaOrAPicture) {
     picture.set_sky(sky);
     const SensorReading a = measure(formula, 1 << 14)[0], b = measure(picture, 1 << 14)[0];
     EXPECT_NEAR(a.value, b.value, 3 * std::hypot(a.half_width_95, b.half_width_95) + 2e-4 * a.value);
+}
+
+TEST(CieSkies, AreSampledByTheDensityThatIsToldByChiSquare) {
+    for (const int type : {1, 4, 12, 15, 16}) {
+        Scene scene;
+        Sky sky = cie_sky(type, 75, 35);
+        sky.north_rad = 0.4f;
+        scene.set_sky(sky);
+        convert::FlatScene flat;
+        flat.update(scene);
+        trace::TextureTable textures;
+        textures.update(flat);
+        const trace::GeometryTable geometries = trace::build_geometry_table(flat);
+        const trace::EmitterTable emitters = trace::build_emitters(flat, textures, true);
+        trace::CpuKernel kernel{flat, geometries, textures, emitters, {}};
+        kernel.frame.environment = 1;
+        kernel.frame.sky_emitter = emitters.sky_emitter;
+        kernel.frame.sky_columns = emitters.sky_columns;
+        kernel.frame.sky_rows = emitters.sky_rows;
+        constexpr int bins = 16, samples = 1 << 18;
+        std::vector<int> counts(bins * bins);
+        std::mt19937 random(static_cast<unsigned>(type));
+        std::uniform_real_distribution<float> unit(0, 1);
+        double solid_angle = 0, flux = 0;
+        int across_border = 0;  // of a cell, by rounding
+        for (int i = 0; i < samples; ++i) {
+            const float u = unit(random), v = unit(random);
+            const shading::KernelLightSample sample = kernel.kernel_sample_sky({u, v});
+            across_border += std::abs(sample.pdf / kernel.kernel_sky_direction_pdf(sample.direction) - 1) > 1e-4f;
+            solid_angle += 1 / (sample.pdf * samples);
+            flux += luminance(glm::dvec3(sample.light)) / samples;
+            const glm::vec2 uv = shading::sky_uv(sample.direction, sky.north_rad);
+            ++counts[static_cast<std::size_t>(std::min(static_cast<int>(uv.y * bins), bins - 1) * bins +
+                                              std::min(static_cast<int>(uv.x * bins), bins - 1))];
+        }
+        // Each bin holds whole cells of the sampling table, in which the density is even.
+        const int rows = static_cast<int>(emitters.sky_rows) / bins, columns = static_cast<int>(emitters.sky_columns) / bins;
+        double statistic = 0, exact_flux = 0;
+        for (int bin = 0; bin < bins * bins; ++bin) {
+            double expected = 0;
+            for (int row = 0; row < rows; ++row)
+                for (int column = 0; column < columns; ++column) {
+                    const int r = bin / bins * rows + row, c = bin % bins * columns + column;
+                    const double cap = std::cos(pi * r / (rows * bins)) - std::cos(pi * (r + 1) / (rows * bins));
+                    const double cell = 2 * pi / (columns * bins) * cap;
+                    expected += samples * cell * kernel.kernel_sky_cell_pdf(static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(c));
+                    const glm::vec2 middle((static_cast<float>(c) + .5f) / static_cast<float>(columns * bins), (static_cast<float>(r) + .5f) / static_cast<float>(rows * bins));
+                    exact_flux += cell * luminance(glm::dvec3(kernel.kernel_sky_radiance(shading::sky_direction(middle, sky.north_rad))));
+                }
+            statistic += std::pow(counts[static_cast<std::size_t>(bin)] - expected, 2) / expected;
+        }
+        // χ² with 255 degrees of freedom: mean 255, standard deviation √510; five of them.
+        EXPECT_LT(statistic, 255 + 5 * std::sqrt(510.0)) << type;
+        EXPECT_LT(across_border, samples / 500) << type;
+        EXPECT_NEAR(solid_angle, 4 * pi, 0.02 * 4 * pi) << type;
+        EXPECT_NEAR(flux, exact_flux, 0.005 * exact_flux) << type << ": what it brings, over all directions";
+    }
 }
 
 TEST(Panes, LetACollimatedBeamThroughByItsAngle) {
