@@ -335,7 +335,7 @@ TEST(GltfErrors, BrokenContainersAreRefused) {
 }
 
 TEST(GltfErrors, UnknownEndingsAndMissingFilesAreRefused) {
-    EXPECT_NE(error_of("a.xyz", "hello").find(".obj, .gltf or .glb"), std::string::npos);
+    EXPECT_NE(error_of("a.xyz", "hello").find(".obj, .gltf, .glb, .ies or .ldt"), std::string::npos);
     Scene scene;
     Warnings warnings;
     const auto root = import_model(scene, {}, "/nowhere/at/all.glb", warnings);

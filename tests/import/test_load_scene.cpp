@@ -122,7 +122,7 @@ TEST(LoadScene, ErrorsOfAModelReachTheCaller) {
     EXPECT_NE(scene.error().text().find("/nowhere/model.glb"), std::string::npos);
     const auto unknown = load_scene("/nowhere/model.step", {}, warnings);
     ASSERT_FALSE(unknown);
-    EXPECT_NE(unknown.error().text().find(".obj, .gltf or .glb"), std::string::npos);
+    EXPECT_NE(unknown.error().text().find(".obj, .gltf, .glb, .ies or .ldt"), std::string::npos);
 }
 
 }  // namespace
