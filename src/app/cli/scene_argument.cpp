@@ -20,7 +20,7 @@ void add_override_option(CLI::App& command, SceneArgument& argument) {
 
 CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument) {
     CLI::Option* scene =
-        command.add_option("SCENE", argument.path, "A scene file (*.heliodon.json) or a model (.obj, .gltf, .glb)")
+        command.add_option("SCENE", argument.path, "A scene file (*.heliodon.json) a model (.obj, .gltf, .glb) or a luminaire (.ies, .ldt)")
             ->required();
     add_override_option(command, argument);
     return scene;
