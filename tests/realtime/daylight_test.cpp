@@ -108,7 +108,7 @@ TEST_F(Daylight, APaneLetsABeamAndALampThroughByTheAngleOfEachRay) {
     scene.set_light(lamp, Light{.type = LightType::point, .intensity = glm::vec3(3000)});
     for (const float x : {0.0f, 0.1f})
         scene.add_sensor({"s" + std::to_string(scene.sensors().size()), SensorType::illuminance, {x, 0, 0}, {0, 1, 0}, {}, {}});
-    for (const float angle_deg : {0.0f, 45.0f, 70.0f}) {
+    for (const float angle_deg : {20.0f, 65.0f}) {
         const float angle = glm::radians(angle_deg);
         scene.set_light(sun, Light{.type = LightType::directional, .intensity = glm::vec3(1000), .direction = {std::sin(angle), -std::cos(angle), 0}});
         scene.set_transform(lamp, {.translation = {2 * std::tan(angle), 2, 0}});
@@ -138,7 +138,7 @@ TEST_F(Daylight, ThroughAPaneBothEnginesShowTheSame) {
     camera.vertical_fov_rad = 0.8f;
     camera.ev100_override = 1.0f;
     scene.add_camera(camera);
-    expect_agreement(scene, {96, 256, 64}, {0.03, 0.005, 0.02});
+    expect_agreement(scene, {96, 128, 64}, {0.03, 0.005, 0.02});
 }
 
 TEST_F(Daylight, SensorsInAPenumbraStateAHalfWidthThatHoldsTheTruth) {
