@@ -15,7 +15,9 @@ constexpr double one_sided_95 = 1.6449;  // standard deviations of a normal dist
 }  // namespace
 
 AdaptiveSampling::AdaptiveSampling(Blocks blocks, double target_error, double floor_nits)
-    : blocks_(blocks), target_error_(target_error), floor_nits_(floor_nits),
+    : blocks_(blocks),
+      target_error_(target_error),
+      floor_nits_(floor_nits),
       decision_(static_cast<std::size_t>(blocks.width) * blocks.height, glm::vec4(0)),
       state_(static_cast<std::size_t>(blocks.count())) {}
 
@@ -36,16 +38,23 @@ int AdaptiveSampling::next_check(int samples) {
 /// confidence interval, against the target's square.
 bool AdaptiveSampling::suffices(int block, int half, int samples) const {
     const double count = samples_in_half(samples, half);
-    double sum = 0, squares = 0;
+    double luminance = 0;
     int pixels = 0;
+    const auto sums_at = [&](int x, int y) { return decision_[static_cast<std::size_t>(y) * blocks_.width + x]; };
     blocks_.each_pixel(block, [&](int x, int y) {
-        const glm::vec4& sums = decision_[static_cast<std::size_t>(y) * blocks_.width + x];
-        const double mean = sums[half] / count, apart = sums[2 + half] / count;
+        luminance += sums_at(x, y)[half] / count;
+        ++pixels;
+    });
+    luminance /= pixels;
+    double sum = 0, squares = 0;
+    blocks_.each_pixel(block, [&](int x, int y) {
+        const glm::vec4 sums = sums_at(x, y);
+        // A pixel that is bright by one rare sample must not have its error excused by it: at most the block's mean.
+        const double least = std::min<double>(sums[half] / count, luminance), apart = sums[2 + half] / count;
         // apart² estimates the variance of this half's mean; that of both halves' is half of it.
-        const double relative = 0.5 * apart * apart / (mean * mean + floor_nits_ * floor_nits_);
+        const double relative = 0.5 * apart * apart / (least * least + floor_nits_ * floor_nits_);
         sum += relative;
         squares += relative * relative;
-        ++pixels;
     });
     const double mean = sum / pixels;
     // The squares of single normal values scatter by √2 times their mean, at least: pixels differ besides.

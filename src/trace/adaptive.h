@@ -31,7 +31,7 @@ struct Blocks {
 /// its mean stays exactly unbiased.
 class AdaptiveSampling {
 public:
-    /// `floor_nits`: errors are relative to √(L² + floor²).
+    /// `floor_nits`: errors are relative to √(L² + floor²), L the lesser of the pixel's and its block's luminance.
     AdaptiveSampling(Blocks blocks, double target_error, double floor_nits);
 
     /// What a block still wants of the samples of a half.
@@ -62,8 +62,9 @@ public:
 
     // What interrupted work is taken up from.
     struct Block {
-        int sufficed[2] = {0, 0};  ///< samples after which this half's own error was first within the target; 0: not yet
-        int stopped[2] = {0, 0};   ///< samples after which the half was let go of; 0: not yet
+        int sufficed[2] = {0,
+                           0};    ///< samples after which this half's own error was first within the target; 0: not yet
+        int stopped[2] = {0, 0};  ///< samples after which the half was let go of; 0: not yet
     };
     [[nodiscard]] const std::vector<glm::vec4>& decision_sums() const { return decision_; }
     [[nodiscard]] const Block& block(int i) const { return state_[static_cast<std::size_t>(i)]; }
@@ -75,7 +76,8 @@ private:
 
     Blocks blocks_;
     double target_error_, floor_nits_;
-    std::vector<glm::vec4> decision_;  ///< by pixel: luminance of the even and odd samples; of their sequences' difference
+    std::vector<glm::vec4>
+        decision_;  ///< by pixel: luminance of the even and odd samples; of their sequences' difference
     std::vector<Block> state_;
     bool finished_ = false;
 };

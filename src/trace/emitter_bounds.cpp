@@ -18,7 +18,8 @@ LightBounds light_bounds(const shading::LightData& light, double lumen) {
             bounds.normals_rad = std::acos(light.cos_inner);
             bounds.emission_rad = std::acos(light.cos_outer) - bounds.normals_rad;
             // As flux: 2πI (1 − cos inner + (cos inner − cos outer)/3).
-            bounds.intensity_cd = lumen / (2 * pi * (1.0 - light.cos_inner + (light.cos_inner - light.cos_outer) / 3.0));
+            bounds.intensity_cd =
+                lumen / (2 * pi * (1.0 - light.cos_inner + (light.cos_inner - light.cos_outer) / 3.0));
             break;
         case shading::light_type_lambertian:
             bounds.emission_rad = pi / 2;

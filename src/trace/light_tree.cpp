@@ -47,8 +47,8 @@ LightBounds joined(LightBounds a, const LightBounds& b) {
     return a;
 }
 
-/// Expected cost of a node, up to a factor: intensity × area × solid angle of emission (Conty Estevez & Kulla 2018, eq. 1 and
-/// section 4.4), with their factor against thin boxes, longest side over the side that is split.
+/// Expected cost of a node, up to a factor: intensity × area × solid angle of emission (Conty Estevez & Kulla 2018, eq.
+/// 1 and section 4.4), with their factor against thin boxes, longest side over the side that is split.
 double cost(const LightBounds& bounds, const glm::vec3& parent_extent, int axis) {
     const auto area_of = [](const glm::dvec3& e) { return e.x * e.y + e.y * e.z + e.z * e.x; };
     const glm::dvec3 e = bounds.box.max - bounds.box.min;
@@ -147,9 +147,8 @@ private:
             }
         }
         if (best_axis < 0) return part.size() / 2;  // all in one place
-        const auto middle = std::partition(part.begin(), part.end(), [&](std::uint32_t light) {
-            return bucket(light, best_axis) <= best_bucket;
-        });
+        const auto middle = std::partition(
+            part.begin(), part.end(), [&](std::uint32_t light) { return bucket(light, best_axis) <= best_bucket; });
         return static_cast<std::size_t>(middle - part.begin());
     }
 

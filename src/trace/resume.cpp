@@ -101,7 +101,8 @@ Result<void> read_decisions(const StoredLayers& layers, const Blocks& blocks, in
     if (!sufficed) return tl::unexpected(sufficed.error());
     if (!stopped) return tl::unexpected(stopped.error());
     std::vector<glm::vec4> decision((*sums)->pixels.size() / 4);
-    for (std::size_t i = 0; i < (*sums)->pixels.size(); ++i) decision[i / 4][static_cast<int>(i % 4)] = (*sums)->pixels[i];
+    for (std::size_t i = 0; i < (*sums)->pixels.size(); ++i)
+        decision[i / 4][static_cast<int>(i % 4)] = (*sums)->pixels[i];
     std::vector<AdaptiveSampling::Block> state(static_cast<std::size_t>(blocks.count()));
     for (int block = 0; block < blocks.count(); ++block)
         for (int half = 0; half < 2; ++half) {
@@ -156,7 +157,8 @@ Result<void> restore_state(const Picture& picture, const RenderIdentity& identit
         const auto stored = picture.attributes.find(std::string(prefix) + name);
         const std::string found = stored == picture.attributes.end() ? "nothing" : stored->second;
         if (found != identity.at(name))
-            return fail("", fmt::format("cannot go on with another {}: expected {}, found {}", name, identity.at(name), found));
+            return fail(
+                "", fmt::format("cannot go on with another {}: expected {}, found {}", name, identity.at(name), found));
     }
     const std::string& text = done->second;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), accumulation.done);

@@ -24,7 +24,8 @@ glm::dvec3 pixel_mean(const SampleSums& sums, const std::vector<glm::dvec3>& sum
     glm::dvec3 mean(0);
     for (int half = 0; half < 2; ++half)
         if (weights[half] > 0)
-            mean += weights[half] * sum[2 * pixel + half] / static_cast<double>(samples_in_half(taken.half[half], half));
+            mean +=
+                weights[half] * sum[2 * pixel + half] / static_cast<double>(samples_in_half(taken.half[half], half));
     return mean;
 }
 
@@ -39,7 +40,8 @@ double pixel_variance(const SampleSums& sums, std::size_t pixel, const SamplesTa
         const double apart = (sum + less) / (2 * first) - (sum - less) / (2 * second);
         // E (m1 − m2)² = v/n1 + v/n2, and the half's mean has the variance v/(n1 + n2); for equal counts no more is
         // assumed than that both have the same variance, whatever the law by which it falls with the count.
-        variance += weights[half] * weights[half] * apart * apart * first * second / ((first + second) * (first + second));
+        variance +=
+            weights[half] * weights[half] * apart * apart * first * second / ((first + second) * (first + second));
     }
     return variance;
 }

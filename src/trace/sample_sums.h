@@ -39,7 +39,9 @@ struct SampleSums {
 
     SampleSums() = default;
     SampleSums(std::size_t pixels, bool variance, bool with_direct)
-        : halves(variance ? 2 : 1), radiance(pixels * halves), direct(with_direct ? pixels * halves : 0),
+        : halves(variance ? 2 : 1),
+          radiance(pixels * halves),
+          direct(with_direct ? pixels * halves : 0),
           difference(variance ? pixels * halves : 0) {}
 
     void add(std::size_t pixel, int sample, const PathResult& result) {

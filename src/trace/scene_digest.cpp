@@ -50,9 +50,13 @@ void add_mesh(const Mesh& mesh, Digest& digest) {
 }
 
 void add_texture(const Texture& texture, Digest& digest) {
-    const int properties[] = {texture.width, texture.height, static_cast<int>(texture.format),
-                              static_cast<int>(texture.wrap_u), static_cast<int>(texture.wrap_v),
-                              static_cast<int>(texture.magnify), static_cast<int>(texture.minify)};
+    const int properties[] = {texture.width,
+                              texture.height,
+                              static_cast<int>(texture.format),
+                              static_cast<int>(texture.wrap_u),
+                              static_cast<int>(texture.wrap_v),
+                              static_cast<int>(texture.magnify),
+                              static_cast<int>(texture.minify)};
     digest.add(properties);
     for (const auto& level : texture.levels) digest.add(level);
 }

@@ -80,7 +80,7 @@ Picture room(int samples, std::uint32_t seed, bool blue_noise, int max_depth) {
 
 struct Errors {
     double mean_square = 0;  ///< of pixels
-    double low = 0;          ///< of what a Gaussian of two pixels leaves, relative to what it leaves of independent errors
+    double low = 0;  ///< of what a Gaussian of two pixels leaves, relative to what it leaves of independent errors
 };
 
 /// Of the difference of two independent pictures, which errs as each does, twice over.

@@ -22,7 +22,9 @@ Scene lights_of_all_kinds() {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> unit(0, 1);
     const auto place = [&] { return glm::vec3(4 * unit(random) - 2, .5f + 2.4f * unit(random), 4 * unit(random) - 2); };
-    const auto turn = [&] { return rotation_from_euler_deg(360.0f * glm::vec3(unit(random), unit(random), unit(random))); };
+    const auto turn = [&] {
+        return rotation_from_euler_deg(360.0f * glm::vec3(unit(random), unit(random), unit(random)));
+    };
     const auto turned = [&] {
         Transform transform;
         transform.translation = place();
@@ -90,7 +92,8 @@ TEST(LightTree, SelectsEachLightAsOftenAsItSaysItDoes) {
         std::vector<double> expected;
         double sum = 0;
         for (const KernelEmitter& emitter : lights.table.emitters) {
-            expected.push_back(emitter.probability > 0 ? lights.kernel.kernel_selection_probability(emitter, from, normal) : 0);
+            expected.push_back(
+                emitter.probability > 0 ? lights.kernel.kernel_selection_probability(emitter, from, normal) : 0);
             sum += expected.back();
         }
         EXPECT_LT(sum, 1 + 1e-5) << "the rest of the walks end where bounds said more than was there";
@@ -116,10 +119,13 @@ TEST(LightTree, LeavesOutNothingThatShines) {
         std::uniform_real_distribution<float> unit(0, 1);
         for (const KernelEmitter& emitter : lights.table.emitters) {
             const vec2 u(unit(random), unit(random));
-            const KernelLightSample light = emitter.kind == kernel_emitter_light
-                                                ? lights.kernel.kernel_sample_light(lights.kernel.fetch_light(emitter.index), from, u)
-                                                : lights.kernel.kernel_sample_surface(emitter, from, u);
-            if (!(max_component(light.light) > 0) || (normal != vec3(0) && !(glm::dot(normal, light.direction) > 1e-4f))) continue;
+            const KernelLightSample light =
+                emitter.kind == kernel_emitter_light
+                    ? lights.kernel.kernel_sample_light(lights.kernel.fetch_light(emitter.index), from, u)
+                    : lights.kernel.kernel_sample_surface(emitter, from, u);
+            if (!(max_component(light.light) > 0) ||
+                (normal != vec3(0) && !(glm::dot(normal, light.direction) > 1e-4f)))
+                continue;
             ++shining;
             EXPECT_GT(lights.kernel.kernel_selection_probability(emitter, from, normal), 0) << emitter.kind;
         }
@@ -211,7 +217,8 @@ TEST(LightTree, TenThousandLightsHaveAtMostTwiceTheErrorOfTenAtEqualSamples) {
     for (const int max_depth : {1, 3}) {
         const glm::dvec2 ten = relmse(lamps(10), max_depth), many = relmse(lamps(10000), max_depth);
         RecordProperty(fmt::format("relmse_of_10_depth_{}", max_depth), fmt::format("{:.5f} {:.5f}", ten[0], ten[1]));
-        RecordProperty(fmt::format("relmse_of_10000_depth_{}", max_depth), fmt::format("{:.5f} {:.5f}", many[0], many[1]));
+        RecordProperty(fmt::format("relmse_of_10000_depth_{}", max_depth),
+                       fmt::format("{:.5f} {:.5f}", many[0], many[1]));
         EXPECT_LE(many[1], 2 * ten[1]) << max_depth;
         EXPECT_LT(many[1], 0.7 * many[0]) << "against selection by flux, " << max_depth;
     }

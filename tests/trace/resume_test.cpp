@@ -1,6 +1,6 @@
 // Going on from a picture that was stopped: to the same bits as without the stop, and from no other picture.
-#include <filesystem>
 #include <unistd.h>
+#include <filesystem>
 
 #include "core/image_io.h"
 #include "scene_building.h"

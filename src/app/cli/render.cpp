@@ -305,7 +305,7 @@ void declare_engine_options(CLI::App& command, RenderOptions& options) {
         .add_option("--target-error", options.target_error,
                     "Path engine: stop where the relative standard error of the luminance is at most this: the root "
                     "mean square over the pixels of a block of 8x8, at the upper end of its 95 % confidence interval, "
-                    "relative to the pixel's luminance or, where that is less, to 1 % of what the camera shows as white")
+                    "relative to the pixel's or the block's luminance, the lesser, but at least 1 % of the camera's white")
         ->check(check_positive);
     command.add_flag("--resume", options.resume,
                      "Path engine: go on from the .exr output, if it is there, and keep in it what going on needs. "
