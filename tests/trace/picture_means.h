@@ -116,4 +116,13 @@ inline Scene box_scene(bool glass = true) {
     return scene;
 }
 
+/// A sheet whose normals lean away from its triangles by up to 40°.
+inline Geometry leaning_sheet() {
+    Geometry sheet = triangle_mesh({{-.6f, .3f, .3f}, {.6f, .3f, .3f}, {.6f, 1.1f, -.3f},
+                                    {-.6f, .3f, .3f}, {.6f, 1.1f, -.3f}, {-.6f, 1.1f, -.3f}});
+    for (const glm::vec3& position : sheet.mesh.positions)
+        sheet.mesh.normals.push_back(glm::normalize(glm::vec3(1.2f * position.x, 1, 1.4f)));
+    return sheet;
+}
+
 }  // namespace heliodon::tests
