@@ -91,7 +91,8 @@ def add_model(path, matrix):
             if old.name not in replaced:
                 images = [n.image for n in old.node_tree.nodes if n.type == "TEX_IMAGE" and n.image]
                 masked = old.blend_method == "CLIP"
-                replaced[old.name] = diffuse(old.name + " diffuse", (1, 1, 1), image=images[0] if images else None,
+                color = next(n for n in old.node_tree.nodes if n.type == "BSDF_PRINCIPLED").inputs["Base Color"].default_value
+                replaced[old.name] = diffuse(old.name + " diffuse", tuple(color)[:3], image=images[0] if images else None,
                                              cutoff=old.alpha_threshold if masked else None)
             slot.material = replaced[old.name]
 
