@@ -12,6 +12,8 @@ build_packages=(
     libglm-dev libembree-dev libtbb-dev
     # pictures and models
     libopenexr-dev libstb-dev libtinyobjloader-dev libtinygltf-dev libmeshoptimizer-dev libdraco-dev
+    # where the sun stands
+    liberfa-dev
     # the rest
     nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libgtest-dev libbenchmark-dev
     # a Vulkan device where there is no GPU (lavapipe)
