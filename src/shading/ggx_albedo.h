@@ -34,15 +34,16 @@ SHADING_CONST uint specular_lobe_columns = 48u;
 SHADING_CONST uint specular_lobe_rows = 48u;
 SHADING_CONST uint specular_lobe_start = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u + 12u;
 // Of what SHADING_EXTENDED models look up (ggx_anisotropic.h, sheen.h), after all of the others.
-SHADING_CONST uint stretched_rows = 10u;    // of √(longer α)
-SHADING_CONST uint stretched_ratios = 7u;   // of √(shorter / longer α)
-SHADING_CONST uint stretched_turns = 6u;    // of the azimuth's quarter turn
-SHADING_CONST uint stretched_columns = 10u;  // of √μ
+SHADING_CONST uint stretched_rows = 20u;      // of √α along the direction
+SHADING_CONST uint stretched_breadths = 20u;  // of √α across it
+SHADING_CONST uint stretched_shears = 5u;     // of (αx αy / both of these)²
+SHADING_CONST uint stretched_columns = 18u;   // of √μ
+SHADING_CONST uint stretched_averages = 32u;  // of √αx and of √αy
 SHADING_CONST uint stretched_albedo_start = specular_lobe_start + 2u * 48u * 48u;
-SHADING_CONST uint stretched_average_start = stretched_albedo_start + 2u * 10u * 7u * 6u * 10u;
+SHADING_CONST uint stretched_average_start = stretched_albedo_start + 2u * 20u * 20u * 5u * 18u;
 SHADING_CONST uint sheen_rows = 16u;     // of roughness
 SHADING_CONST uint sheen_columns = 24u;  // of √μ
-SHADING_CONST uint sheen_albedo_start = stretched_average_start + 2u * 10u * 7u;
+SHADING_CONST uint sheen_albedo_start = stretched_average_start + 2u * 32u * 32u;
 SHADING_CONST uint shading_table_size = sheen_albedo_start + 16u * 24u;
 SHADING_CONST float glass_largest_f0_root = 0.5f;  // (n − 1)/(n + 1) of the last index, n = 3
 

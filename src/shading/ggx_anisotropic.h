@@ -35,55 +35,61 @@ SHADING_FN float ggx_reflection_pdf_stretched(vec3 wo, vec3 h, vec2 alpha) {
     return ggx_distribution_stretched(h, alpha) / ((1.0f + ggx_lambda_stretched(wo, alpha)) * 4.0f * wo.z);
 }
 
-SHADING_FN vec2 stretched_entry(uint first, float x, float y) {
-    vec2 low = mix(ggx_albedo_entry(first), ggx_albedo_entry(first + 2u), x);
-    uint next = first + 2u * stretched_columns;
-    return mix(low, mix(ggx_albedo_entry(next), ggx_albedo_entry(next + 2u), x), y);
+// The albedo of a stretched lobe depends on four numbers. Seen from a direction, the facets' slopes have α along it, α
+// across it, and a shear where its azimuth is none of the axes; of the shear only the square counts, by symmetry. What
+// the albedo has more than an isotropic lobe's of the α along (by which alone facets hide from that direction) is small
+// and smooth: that is in the table.
+
+/// (α² along w, α² across it, squared share of their product that the axes' product is: 1 without shear).
+SHADING_FN vec3 stretched_slopes(vec3 w, vec2 alpha) {
+    float x2 = alpha.x * alpha.x;
+    float y2 = alpha.y * alpha.y;
+    float sine2 = w.x * w.x + w.y * w.y;
+    float along = sine2 > 1.0e-12f ? (x2 * w.x * w.x + y2 * w.y * w.y) / sine2 : x2;
+    float across = x2 + y2 - along;
+    return vec3(along, across, min(x2 * y2 / (along * across), 1.0f));
 }
-SHADING_FN float stretched_ratio(vec2 alpha) {
-    return sqrt(min(alpha.x, alpha.y) / max(alpha.x, alpha.y)) * float(stretched_ratios - 1u);
+SHADING_FN vec2 stretched_line(uint first, float x) {
+    return mix(ggx_albedo_entry(first), ggx_albedo_entry(first + 2u), x);
 }
-/// Azimuth from the axis of the longer α, 0 to 1 for a quarter turn, spread where the lobe changes with it: in the plane
-/// stretched by the roots of α.
-SHADING_FN float stretched_turn(vec3 w, vec2 alpha) {
-    vec2 s = vec2(abs(w.x) * sqrt(alpha.x), abs(w.y) * sqrt(alpha.y));
-    if (alpha.x < alpha.y) {
-        s = vec2(s.y, s.x);
-    }
-    return s.x + s.y > 0.0f ? atan(s.y, s.x) * (2.0f * inverse_pi) : 0.0f;
+SHADING_FN vec2 stretched_plane(uint first, float x, float y) {
+    return mix(stretched_line(first, x), stretched_line(first + 2u * stretched_columns, x), y);
 }
-/// (A, B) as ggx_albedo_split: quadrilinear in √(longer α), the root of the ratio of the two, stretched_turn and √μ.
+SHADING_FN vec2 stretched_block(uint first, float x, float y, float z) {
+    uint next = first + 2u * stretched_columns * stretched_shears;
+    return mix(stretched_plane(first, x, y), stretched_plane(next, x, y), z);
+}
+/// (A, B) as ggx_albedo_split: the isotropic table's, and the difference quadrilinear in the roots of α along and across
+/// `w`, the shear and √μ.
 SHADING_FN vec2 stretched_albedo_split(vec3 w, vec2 alpha) {
-    float row = alpha_coordinate(max(alpha.x, alpha.y)) * float(stretched_rows - 1u);
-    float ratio = stretched_ratio(alpha);
-    float turn = stretched_turn(w, alpha) * float(stretched_turns - 1u);
+    vec3 slopes = stretched_slopes(w, alpha);
+    float along = sqrt(slopes.x);
+    float row = alpha_coordinate(along) * float(stretched_rows - 1u);
+    float breadth = alpha_coordinate(sqrt(slopes.y)) * float(stretched_breadths - 1u);
+    float shear = slopes.z * float(stretched_shears - 1u);
     float column = sqrt(clamp(w.z, 0.0f, 1.0f)) * float(stretched_columns - 1u);
     uint j = min(uint(row), stretched_rows - 2u);
-    uint r = min(uint(ratio), stretched_ratios - 2u);
-    uint t = min(uint(turn), stretched_turns - 2u);
+    uint b = min(uint(breadth), stretched_breadths - 2u);
+    uint s = min(uint(shear), stretched_shears - 2u);
     uint i = min(uint(column), stretched_columns - 2u);
-    uint plane = 2u * stretched_turns * stretched_columns;
-    uint first = stretched_albedo_start + 2u * (((j * stretched_ratios + r) * stretched_turns + t) * stretched_columns + i);
-    uint above = first + stretched_ratios * plane;
+    uint first = stretched_albedo_start +
+                 2u * (((j * stretched_breadths + b) * stretched_shears + s) * stretched_columns + i);
+    uint next = first + 2u * stretched_columns * stretched_shears * stretched_breadths;
     float x = column - float(i);
-    float y = turn - float(t);
-    float z = ratio - float(r);
-    vec2 low = mix(stretched_entry(first, x, y), stretched_entry(first + plane, x, y), z);
-    vec2 high = mix(stretched_entry(above, x, y), stretched_entry(above + plane, x, y), z);
-    return mix(low, high, row - float(j));
+    float y = shear - float(s);
+    float z = breadth - float(b);
+    vec2 more = mix(stretched_block(first, x, y, z), stretched_block(next, x, y, z), row - float(j));
+    return max(ggx_albedo_split(w.z, along) + more, vec2(0.0f));
 }
-/// Their averages over the hemisphere, 2 ∫ · μ dμ.
+/// Their averages over the hemisphere, 2 ∫ · μ dμ: bilinear in the roots of both α.
 SHADING_FN vec2 stretched_split_average(vec2 alpha) {
-    float row = alpha_coordinate(max(alpha.x, alpha.y)) * float(stretched_rows - 1u);
-    float ratio = stretched_ratio(alpha);
-    uint j = min(uint(row), stretched_rows - 2u);
-    uint r = min(uint(ratio), stretched_ratios - 2u);
-    uint first = stretched_average_start + 2u * (j * stretched_ratios + r);
-    uint next = first + 2u * stretched_ratios;
-    float z = ratio - float(r);
-    vec2 low = mix(ggx_albedo_entry(first), ggx_albedo_entry(first + 2u), z);
-    vec2 high = mix(ggx_albedo_entry(next), ggx_albedo_entry(next + 2u), z);
-    return mix(low, high, row - float(j));
+    float column = alpha_coordinate(alpha.x) * float(stretched_averages - 1u);
+    float row = alpha_coordinate(alpha.y) * float(stretched_averages - 1u);
+    uint i = min(uint(column), stretched_averages - 2u);
+    uint j = min(uint(row), stretched_averages - 2u);
+    uint first = stretched_average_start + 2u * (j * stretched_averages + i);
+    float x = column - float(i);
+    return mix(stretched_line(first, x), stretched_line(first + 2u * stretched_averages, x), row - float(j));
 }
 
 SHADING_END
