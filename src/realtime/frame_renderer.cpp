@@ -54,13 +54,13 @@ Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(gpu::Device& device
 }
 
 Result<void> FrameRenderer::open() {
-    const auto make = [&](gpu::Buffer& buffer, std::string name, VkDeviceSize size) -> Result<void> {
-        auto made = gpu::Buffer::create(device_, {std::move(name), size});
+    const auto make = [&](gpu::Buffer& buffer, std::string name, VkDeviceSize size, VkBufferUsageFlags usage = 0) -> Result<void> {
+        auto made = gpu::Buffer::create(device_, {std::move(name), size, usage});
         if (!made) return tl::unexpected(made.error());
         buffer = std::move(*made);
         return {};
     };
-    if (auto done = make(frame_buffer_, "frame", sizeof(shading::FrameData)); !done) return done;
+    if (auto done = make(frame_buffer_, "frame", sizeof(shading::FrameData), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT); !done) return done;
     if (auto done = make(camera_view_, "camera view", sizeof(shading::ViewData)); !done) return done;
     const auto tables = shading::shading_tables();
     if (auto done = make(shading_tables_, "shading tables", tables.size_bytes()); !done) return done;
@@ -130,9 +130,8 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
     inputs_.instance_count = gpu_scene_.instance_count();
     inputs_.has_tested = gpu_scene_.has_tested();
     inputs_.has_blended = gpu_scene_.has_blended();
-    if (inputs_.has_extended != gpu_scene_.has_extended() || inputs_.has_luminaires != gpu_scene_.has_luminaires()) voxels_.forget_passes();
-    inputs_.has_luminaires = wanted_.luminaires = gpu_scene_.has_luminaires();
-    inputs_.has_extended = wanted_.extended = gpu_scene_.has_extended();
+    if (inputs_.features != gpu_scene_.features()) voxels_.forget_passes();
+    inputs_.features = wanted_.features = gpu_scene_.features();
     wanted_.aov = sample.aov != shading::frame_aov_none;
     wanted_.cone_shadows = has_cone_shadows_;
     if (lighting_.cone_shadows != has_cone_shadows_) voxels_.forget_passes();

@@ -106,7 +106,8 @@ private:
     /// What the graphs depend on; they are rebuilt when it changes.
     struct GraphKey {
         int width = 0, height = 0;
-        bool display = false, blended = false, extended = false, luminaires = false;
+        bool display = false, blended = false;
+        passes::SceneFeatures features;
         bool aov = false, cone_traced = false, cone_shadows = false;
         std::uint32_t cone_spacing = 1;  // pixels
         bool computed_visibility = false, computed_shadows = false, tests_opacity = false;  // rasterized by compute

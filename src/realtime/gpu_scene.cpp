@@ -9,6 +9,7 @@
 
 #include "convert/closed_mesh.h"
 #include "gpu/bindless_textures.h"
+#include "realtime/scene_features.h"
 #include "realtime/vertex_packing.h"
 
 namespace heliodon::realtime {
@@ -344,16 +345,14 @@ Result<void> GpuScene::stand_in_for_light(std::uint32_t index, const shading::Li
 
 void GpuScene::classify() {
     bounds_ = flat_.bounds();
-    has_tested_ = has_blended_ = has_extended_ = false;
+    features_ = scene_features(flat_);
+    has_tested_ = has_blended_ = false;
     for (const shading::InstanceData& instance : flat_.instances()) {
         if (!(instance.flags & shading::instance_flag_visible)) continue;
         const std::uint32_t flags = flat_.materials()[instance.material].flags;
         has_blended_ |= (flags & shading::material_flag_alpha_blend) != 0;
         has_tested_ |= (flags & shading::material_flag_alpha_mask) != 0;
-        has_extended_ |= (flags & shading::material_flag_extended) != 0;
     }
-    has_luminaires_ = std::any_of(flat_.lights().begin(), flat_.lights().end(),
-                                  [](const shading::LightData& light) { return light.type == shading::light_type_luminaire; });
 }
 
 Result<RealtimeUpdate> GpuScene::update(const Scene& scene) {

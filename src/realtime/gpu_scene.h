@@ -10,6 +10,7 @@
 #include "gpu/commands.h"
 #include "gpu/device.h"
 #include "passes/common/frame_shared.h"
+#include "passes/common/scene_inputs.h"
 #include "realtime/moving_instances.h"
 #include "realtime/range_allocator.h"
 #include "realtime/renderer.h"
@@ -65,9 +66,8 @@ public:
     /// Whether any visible instance needs the alpha-tested or the blended draw list.
     [[nodiscard]] bool has_tested() const { return has_tested_; }
     [[nodiscard]] bool has_blended() const { return has_blended_; }
-    /// Whether any needs what SHADING's extended models have (shading/surface.h).
-    [[nodiscard]] bool has_extended() const { return has_extended_; }
-    [[nodiscard]] bool has_luminaires() const { return has_luminaires_; }
+    /// Of the materials of what is visible, the lights as the scene has them, and the sky.
+    [[nodiscard]] const passes::SceneFeatures& features() const { return features_; }
     /// Bytes that the vertices' attributes take on the device.
     [[nodiscard]] std::uint64_t vertex_bytes() const { return vertex_ranges_.used() * 4; }
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
@@ -119,7 +119,8 @@ private:
     MovingInstances surfaces_;
     Bounds bounds_;
     bool compact_ = false;  // convert.vertex_precision
-    bool has_tested_ = false, has_blended_ = false, has_extended_ = false, has_luminaires_ = false;
+    bool has_tested_ = false, has_blended_ = false;
+    passes::SceneFeatures features_;
     std::uint64_t revision_ = 0, sky_revision_ = 0, light_revision_ = 0;
 };
 

@@ -76,7 +76,7 @@ Result<void> VoxelVolume::check_size(const VoxelSettings& settings) const {
 
 Result<void> VoxelVolume::open() {
     for (gpu::Buffer* buffer : {&data_buffer_, &shown_buffer_}) {
-        auto made = gpu::Buffer::create(device_, {"volume", sizeof(shading::VolumeData)});
+        auto made = gpu::Buffer::create(device_, {"volume", sizeof(shading::VolumeData), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT});
         if (!made) return tl::unexpected(made.error());
         *buffer = std::move(*made);
     }

@@ -8,7 +8,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 1) const bool cone_traced = false;
-layout(set = 0, binding = 8, std430) readonly buffer Frame_ { FrameData frame; };
+layout(set = 0, binding = 8, std140) uniform Frame_ { FrameData frame; };
 layout(set = 0, binding = 12, std430) buffer Fragments { uint fragment_count; uint fragment_demand; uint padding1; uint padding2; BlendFragment fragments[]; };
 layout(set = 0, binding = 13, std430) readonly buffer Heads { uint heads[]; };
 layout(set = 0, binding = 14, rgba32f) uniform image2D contribution;

@@ -6,7 +6,7 @@
 #include "passes/blend/blend_shared.h"
 
 layout(early_fragment_tests) in;
-layout(set = 0, binding = 9, std430) readonly buffer Frame_ { FrameData frame; };
+layout(set = 0, binding = 9, std140) uniform Frame_ { FrameData frame; };
 layout(set = 0, binding = 10, std430) buffer Fragments { uint fragment_count; uint fragment_demand; uint padding1; uint padding2; BlendFragment fragments[]; };
 layout(set = 0, binding = 11, std430) buffer Heads { uint heads[]; };
 layout(location = 0) flat in uint instance_index;

@@ -12,7 +12,7 @@
 layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
 float shading_table(uint index) { return shading_tables[index]; }
 
-LightData batch_light(FrameData frame, uint index) { return light_table[active_light_table[frame.light_first + index]]; }
+LightData batch_light(FrameData frame, uint index) { return shining_light(frame.light_first + index); }
 
 LightSample light_arriving(vec3 position, LightData light, uint index, uint pixel_seed) {
     const uint seed = pcg_hash(pixel_seed + index);
@@ -103,7 +103,7 @@ vec3 surface_radiance(SurfacePoint point, vec3 wo, BsdfLobes lobes, FrameData fr
     vec3 radiance = lights_reflected(point, lobes, wo, frame, pixel_seed);
     if (frame.batch == 0u) {
         radiance += point.material.emission;
-        if (frame.sky_enabled != 0u && frame.cone_traced == 0u && sky_data.model != sky_model_none && wo.z > 0.0f) radiance += sky_reflected(point, lobes);
+        if (has_sky && frame.sky_enabled != 0u && frame.cone_traced == 0u && sky_data.model != sky_model_none && wo.z > 0.0f) radiance += sky_reflected(point, lobes);
     }
     return radiance;
 }

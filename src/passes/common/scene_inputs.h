@@ -11,6 +11,22 @@
 
 namespace heliodon::passes {
 
+/// What the scene has of what whole branches of shaders are for: pipelines are chosen by it, and leave out the rest. A CPU
+/// that runs every branch for all of a vector's lanes gains most.
+struct SceneFeatures {
+    static constexpr std::uint32_t any_kind = 0xffffffffu;  ///< several, or nothing is known
+
+    bool extended = false;    ///< some material is more than the standard model's core
+    bool luminaires = false;  ///< some light is one
+    bool textures = true;     ///< some surface has textures or vertex colours
+    bool sky = true;
+    bool many_lights = true;     ///< than are summed one by one (light_grid_shared.h)
+    bool visible_lights = true;  ///< some light has an extent
+    std::uint32_t only_model = any_kind;  ///< material_model_… of all materials
+    std::uint32_t only_light = any_kind;  ///< light_type_… of all lights, none with an extent
+    bool operator==(const SceneFeatures&) const = default;
+};
+
 /// What the passes need of the scene in the frame being recorded. Its owner keeps it at one address and
 /// brings it up to date before each frame.
 struct SceneInputs {
@@ -20,19 +36,24 @@ struct SceneInputs {
     std::uint32_t instance_count = 0;
     bool has_tested = false;   ///< something visible is alpha-masked
     bool has_blended = false;  ///< something visible is alpha-blended
-    bool has_extended = false;  ///< some material is more than the standard model's core; pipelines are chosen by it
-    bool has_luminaires = false;  ///< pipelines are chosen by it, too
+    SceneFeatures features;
     std::uint32_t draw_calls = 0;  ///< indirect draws recorded; the passes count
 };
 
-/// Constant 9 of every shader that evaluates materials (shading/surface.h).
+/// Constants of every shader that evaluates materials or the sky (shading/surface.h, scene_tables.glsl).
 inline void set_material_constants(gpu::Specialization& constants, const SceneInputs& scene) {
-    constants[9] = scene.has_extended ? 1u : 0u;
+    constants[9] = scene.features.extended ? 1u : 0u;
+    constants[11] = scene.features.textures ? 1u : 0u;
+    constants[12] = scene.features.only_model;
+    constants[13] = scene.features.sky ? 1u : 0u;
 }
 
-/// Constant 10 of every shader that asks lights for what they send (luminaires.glsl).
+/// Constants of every shader that asks lights for what they send (luminaires.glsl, scene_tables.glsl).
 inline void set_light_constants(gpu::Specialization& constants, const SceneInputs& scene) {
-    constants[10] = scene.has_luminaires ? 1u : 0u;
+    constants[10] = scene.features.luminaires ? 1u : 0u;
+    constants[14] = scene.features.only_light;
+    constants[15] = scene.features.many_lights ? 1u : 0u;
+    constants[16] = scene.features.visible_lights ? 1u : 0u;
 }
 
 using NumberedBinding = std::pair<std::uint32_t, gpu::Binding>;

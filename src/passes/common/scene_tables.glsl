@@ -21,6 +21,30 @@ layout(set = 0, binding = 7, std430) readonly buffer SkyTable {
     uint sky_specular_levels;
 };
 
+// What the scene has of what whole branches are for (SceneFeatures, scene_inputs.h).
+const uint any_kind = 0xffffffffu;
+layout(constant_id = 11) const bool has_textures = true;  // or vertex colours
+layout(constant_id = 12) const uint only_model = any_kind;
+layout(constant_id = 13) const bool has_sky = true;
+layout(constant_id = 14) const uint only_light = any_kind;
+layout(constant_id = 15) const bool has_many_lights = true;
+layout(constant_id = 16) const bool has_visible_lights = true;
+
+MaterialData material_of(InstanceData instance) {
+    MaterialData material = material_table[instance.material];
+    if (only_model != any_kind) material.model = only_model;
+    return material;
+}
+/// Light `index` of those that shine.
+LightData shining_light(uint index) {
+    LightData light = light_table[active_light_table[index]];
+    if (only_light != any_kind) {
+        light.type = only_light;
+        light.radius = 0.0f;
+    }
+    return light;
+}
+
 float fetch_float(uint offset) { return uintBitsToFloat(vertex_table[offset]); }
 vec3 fetch_vec3(uint offset, uint vertex) {
     const uint first = offset + 3u * vertex;

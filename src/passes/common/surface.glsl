@@ -118,7 +118,7 @@ bool texture_derivatives(GeometryData geometry, uint set_index, TriangleHit hit,
 }
 
 vec3 mapped_normal(InstanceData instance, GeometryData geometry, MaterialData m, TriangleHit hit, vec2 uv0, vec2 uv1, vec3 n) {
-    if (m.normal_texture.texture_index == no_texture && m.bump_texture.texture_index == no_texture) return n;
+    if (!has_textures || m.normal_texture.texture_index == no_texture && m.bump_texture.texture_index == no_texture) return n;
     const vec4 tangent = interpolated_tangent(instance, geometry, hit);
     vec3 dp_du = vec3(0.0f);
     vec3 dp_dv = vec3(0.0f);
@@ -150,9 +150,9 @@ vec4 vertex_color_at(GeometryData geometry, TriangleHit hit) {
 SurfacePoint resolve_surface(uint instance_index, uint primitive, FrameData frame, vec3 direction) {
     const InstanceData instance = instance_table[instance_index];
     const GeometryData geometry = geometry_table[instance.geometry];
-    const MaterialData material = material_table[instance.material];
+    const MaterialData material = material_of(instance);
     const TriangleHit hit = intersect(instance, geometry, primitive, frame.position, direction);
-    set_texture_gradients(material, geometry, hit, direction, frame.ray_dx, frame.ray_dy, frame.texture_gradient_scale);
+    if (has_textures) set_texture_gradients(material, geometry, hit, direction, frame.ray_dx, frame.ray_dy, frame.texture_gradient_scale);
 
     SurfacePoint point;
     point.position = hit.p0 + hit.edge1 * hit.barycentric.y + hit.edge2 * hit.barycentric.z;
@@ -164,7 +164,8 @@ SurfacePoint resolve_surface(uint instance_index, uint primitive, FrameData fram
     const vec2 uv0 = interpolate_texcoord(geometry, 0u, hit);
     const vec2 uv1 = interpolate_texcoord(geometry, 1u, hit);
     const bool inside = back && (material.flags & material_flag_two_sided) == 0u;
-    point.material = material_at(material, uv0, uv1, vertex_color_at(geometry, hit), inside);
+    if (has_textures) point.material = material_at(material, uv0, uv1, vertex_color_at(geometry, hit), inside);
+    else point.material = material_combine(material, material_texels_default(), vec4(1.0f), inside);
     const vec3 smooth_normal = interpolated_normal(instance, geometry, hit, outward);
     const vec3 normal = mapped_normal(instance, geometry, material, hit, uv0, uv1, smooth_normal);
     orient_surface(instance, geometry, hit, smooth_normal, point.material.surface);

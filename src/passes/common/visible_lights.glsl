@@ -17,7 +17,7 @@ const float beyond_every_light = 2.0f * light_distance_infinite;
 /// Radiance of the lights that the ray meets within `distance` metres. `direction` is unit.
 vec3 lights_seen(vec3 origin, vec3 direction, float distance) {
     vec3 sum = vec3(0.0f);
-    for (uint i = 0u; i < visible_light_count; ++i) {
+    for (uint i = 0u; has_visible_lights && i < visible_light_count; ++i) {
         const LightData light = visible_lights[i];
         const float t = scene_light_intersect(light, origin, direction);
         if (t >= 0.0f && t < distance) sum += scene_light_radiance(light, direction);

@@ -6,7 +6,7 @@
 #include "passes/cone_trace/cone_surface.glsl"
 #include "shading/lobe_cone.h"
 
-layout(set = 0, binding = 8, std430) readonly buffer Frame_ { FrameData frame; };
+layout(set = 0, binding = 8, std140) uniform Frame_ { FrameData frame; };
 layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
 layout(set = 0, binding = 12) uniform usampler2D surface_places;
 layout(set = 0, binding = 18) uniform usampler2D surface_albedos;

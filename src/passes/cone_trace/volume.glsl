@@ -12,7 +12,7 @@ layout(set = 0, binding = 20) uniform sampler3D voxel_faces_texture;
 layout(set = 0, binding = 22) uniform sampler3D voxel_depths_texture;
 layout(constant_id = 6) const bool nested = true;  // there is more than one cascade
 layout(constant_id = 8) const bool asks_occupancy = true;
-layout(set = 0, binding = 21, std430) readonly buffer Volume_ { VolumeData volume; };
+layout(set = 0, binding = 21, std140) uniform Volume_ { VolumeData volume; };
 layout(set = 0, binding = 23, std430) readonly buffer Occupancy { uint occupancy[]; };
 
 /// World to the lattice of the finest voxels.

@@ -33,7 +33,7 @@ vec3 lights_illuminance(VoxelFace face, uint cell) {
     LightPicks picks = light_picks(face.position, push.light_count, light_picks_a_face, unit_interval(pcg_hash(voxel_faces * cell + push.face)));
     LightPick pick;
     while (next_light(picks, pick))
-        sum += pick.weight * illuminance_from(light_table[active_light_table[push.light_first + pick.light]], face);
+        sum += pick.weight * illuminance_from(shining_light(push.light_first + pick.light), face);
     return sum;
 }
 

@@ -27,7 +27,7 @@ uint light_sum(uint light, uint cell) { return light_sums[light * light_grid.edg
 /// All of a batch's `light_count` lights, or `count` picks where they are many.
 LightPicks light_picks(vec3 position, uint light_count, uint count, float random) {
     LightPicks picks;
-    picks.all = light_count <= most_lights_summed;
+    picks.all = !has_many_lights || light_count <= most_lights_summed;
     picks.count = picks.all ? light_count : count;
     picks.done = 0u;
     picks.start = random;

@@ -23,7 +23,7 @@ void main() {
     const vec3 normal = sensors[index].normal;
     vec3 sum = vec3(0.0f);
     for (uint i = 0u; i < push.light_count; ++i)
-        sum += illuminance_from(light_table[active_light_table[push.light_first + i]], position, normal);
+        sum += illuminance_from(shining_light(push.light_first + i), position, normal);
     if (push.sky_enabled != 0u) sum += sky_diffuse(normal) * pi;
     sensors[index].illuminance = sum;
 }

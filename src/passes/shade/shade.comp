@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 // Pictures of something else than radiance have a pipeline of their own, so that the common one stays small.
 layout(constant_id = 0) const bool draws_aov = false;
 layout(constant_id = 1) const bool cones_follow = false;
-layout(set = 0, binding = 8, std430) readonly buffer Frame_ { FrameData frame; };
+layout(set = 0, binding = 8, std140) uniform Frame_ { FrameData frame; };
 layout(set = 0, binding = 12) uniform usampler2D visibility;
 layout(set = 0, binding = 13, rgba32f) uniform writeonly image2D contribution;
 layout(set = 0, binding = 14, rgba32ui) uniform writeonly uimage2D surface_places;
@@ -20,7 +20,7 @@ vec4 background(vec3 direction) {
     if (draws_aov || frame.batch != 0u) return vec4(0.0f);
     const vec3 unit = normalize(direction);
     vec3 seen = lights_seen(frame.position, unit, beyond_every_light);
-    if (frame.sky_enabled != 0u) seen += sky_seen(unit);
+    if (has_sky && frame.sky_enabled != 0u) seen += sky_seen(unit);
     return vec4(seen, 0.0f);
 }
 
