@@ -140,67 +140,88 @@ Result<void> EmbreeScene::open_device() {
     return {};
 }
 
-Result<void> EmbreeScene::build_geometry(const Geometry* geometry, Level& level) {
+Result<void> EmbreeScene::take_geometry(const Geometry* geometry, Level& level) {
     level = {};
     if (!geometry || geometry->mesh.indices.empty()) return {};
     const Mesh& mesh = geometry->mesh;
-    GeometryReference triangles;
     const bool exact = geometry->shape && (std::holds_alternative<Sphere>(*geometry->shape) ||
                                            std::holds_alternative<Disk>(*geometry->shape));
     if (exact) {
         level.shape = std::make_unique<Shape>(*geometry->shape);
-        triangles.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
-        rtcSetGeometryUserPrimitiveCount(triangles.get(), 1);
-        rtcSetGeometryUserData(triangles.get(), level.shape.get());
-        rtcSetGeometryBoundsFunction(triangles.get(), shape_bounds, nullptr);
-        rtcSetGeometryIntersectFunction(triangles.get(), shape_intersect);
-        rtcSetGeometryOccludedFunction(triangles.get(), shape_occluded);
+        level.geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
+        rtcSetGeometryUserPrimitiveCount(level.geometry.get(), 1);
+        rtcSetGeometryUserData(level.geometry.get(), level.shape.get());
+        rtcSetGeometryBoundsFunction(level.geometry.get(), shape_bounds, nullptr);
+        rtcSetGeometryIntersectFunction(level.geometry.get(), shape_intersect);
+        rtcSetGeometryOccludedFunction(level.geometry.get(), shape_occluded);
     } else {
         const std::uint32_t highest = *std::max_element(mesh.indices.begin(), mesh.indices.end());
         if (highest >= mesh.positions.size())
             return fail(geometry->name,
                         fmt::format("expected vertex indices below {}, found {}", mesh.positions.size(), highest));
-        triangles.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+        level.geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
         // Shared, never copied: Mesh's arrays are padded for Embree's 16-byte reads.
-        rtcSetSharedGeometryBuffer(triangles.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
-                                   0, sizeof(glm::vec3), mesh.positions.size());
-        rtcSetSharedGeometryBuffer(triangles.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
-                                   3 * sizeof(std::uint32_t), mesh.triangle_count());
+        rtcSetSharedGeometryBuffer(level.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                   mesh.positions.data(), 0, sizeof(glm::vec3), mesh.positions.size());
+        rtcSetSharedGeometryBuffer(level.geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                   mesh.indices.data(), 0, 3 * sizeof(std::uint32_t), mesh.triangle_count());
     }
-    embree_answer_every_mask(triangles.get());
-    rtcCommitGeometry(triangles.get());
-    level.scene.reset(rtcNewScene(device_.get()));
-    rtcSetSceneFlags(level.scene.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcAttachGeometryByID(level.scene.get(), triangles.get(), 0);
-    rtcCommitScene(level.scene.get());
     const RTCError error = rtcGetDeviceError(device_.get());
     if (error != RTC_ERROR_NONE)
-        return fail(geometry->name, fmt::format("Embree cannot build it (error {})", static_cast<int>(error)));
+        return fail(geometry->name, fmt::format("Embree cannot take it (error {})", static_cast<int>(error)));
     return {};
 }
 
-bool EmbreeScene::place_instance(const convert::FlatScene& flat, std::uint32_t index, bool level_rebuilt) {
-    Instance& instance = instances_[index];
-    const bool drawn = is_drawn(flat, index) && levels_[flat.instances()[index].geometry].scene;
-    if (!drawn) {
-        if (!instance.attached) return false;
-        rtcDetachGeometry(top_.get(), index);
-        instance = {};
-        return true;
-    }
+void EmbreeScene::build_level(Level& level) {
+    embree_answer_every_mask(level.geometry.get());
+    rtcCommitGeometry(level.geometry.get());
+    level.scene.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(level.scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcAttachGeometryByID(level.scene.get(), level.geometry.get(), 0);
+    rtcCommitScene(level.scene.get());
+}
+
+bool EmbreeScene::place_instance(const convert::FlatScene& flat, std::uint32_t index) {
     const shading::InstanceData& data = flat.instances()[index];
-    if (!instance.geometry) instance.geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-    if (level_rebuilt || !instance.attached || instance.level != data.geometry)
-        rtcSetGeometryInstancedScene(instance.geometry.get(), levels_[data.geometry].scene.get());
-    instance.level = data.geometry;
-    rtcSetGeometryTransform(instance.geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
-                            glm::value_ptr(data.object_to_world));
-    instance.mask = mask_of(flat, index);
-    rtcSetGeometryMask(instance.geometry.get(), instance.mask);
-    rtcCommitGeometry(instance.geometry.get());
-    if (!instance.attached) rtcAttachGeometryByID(top_.get(), instance.geometry.get(), index);
-    instance.attached = true;
+    const Level& level = levels_[data.geometry];
+    const bool drawn = is_drawn(flat, index) && level.geometry;
+    const bool was_attached = instances_[index].attached;
+    if (was_attached) rtcDetachGeometry(top_.get(), index);
+    instances_[index] = {};
+    if (!drawn) return was_attached;
+
+    GeometryReference instance;
+    if (level.scene) {
+        instance.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+        rtcSetGeometryInstancedScene(instance.get(), level.scene.get());
+        rtcSetGeometryTransform(instance.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                                glm::value_ptr(data.object_to_world));
+    }
+    const RTCGeometry placed = level.scene ? instance.get() : level.geometry.get();
+    instances_[index] = {.mask = mask_of(flat, index), .attached = true, .direct = !level.scene};
+    rtcSetGeometryMask(placed, instances_[index].mask);
+    rtcCommitGeometry(placed);
+    rtcAttachGeometryByID(top_.get(), placed, index);
     return true;
+}
+
+int EmbreeScene::build_instanced_levels(const convert::FlatScene& flat) {
+    std::vector<int> users(levels_.size(), 0);
+    const auto each_drawn = [&](auto&& visit) {
+        for (std::uint32_t index = 0; index < instances_.size(); ++index)
+            if (is_drawn(flat, index)) visit(flat.instances()[index]);
+    };
+    each_drawn([&](const shading::InstanceData& data) { ++users[data.geometry]; });
+    int built = 0;
+    each_drawn([&](const shading::InstanceData& data) {
+        Level& level = levels_[data.geometry];
+        if (!level.geometry || level.scene) return;
+        const bool shape = flat.geometries()[data.geometry]->shape.has_value();
+        if (!shape && users[data.geometry] == 1 && data.object_to_world == glm::mat4(1)) return;
+        build_level(level);
+        ++built;
+    });
+    return built;
 }
 
 Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const convert::FlatChanges& changes) {
@@ -210,29 +231,27 @@ Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const co
     if (everything) {
         instances_.clear();
         top_.reset(rtcNewScene(device_.get()));
-        rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST);
+        // Of changing parts: what changed is built anew, and a tree over all parts, opened where they overlap.
+        rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
         levels_.clear();
     }
     levels_.resize(flat.geometries().size());
     instances_.resize(flat.instances().size());
 
     std::vector<bool> rebuilt(levels_.size(), everything);
-    const auto build = [&](std::uint32_t index) -> Result<void> {
-        rebuilt[index] = true;
-        if (auto built = build_geometry(flat.geometries()[index], levels_[index]); !built) return built;
-        result.geometries_built += levels_[index].scene ? 1 : 0;
-        return {};
-    };
     std::vector<std::uint32_t> wanted = changes.geometries;
     if (everything) {
         wanted.resize(levels_.size());
         for (std::uint32_t i = 0; i < wanted.size(); ++i) wanted[i] = i;
     }
-    for (const std::uint32_t index : wanted)
-        if (auto built = build(index); !built) {
+    for (const std::uint32_t index : wanted) {
+        rebuilt[index] = true;
+        if (auto taken = take_geometry(flat.geometries()[index], levels_[index]); !taken) {
             top_.reset();  // half an update is none: the next one starts afresh
-            return tl::unexpected(built.error());
+            return tl::unexpected(taken.error());
         }
+    }
+    result.geometries_built = build_instanced_levels(flat);
 
     std::vector<bool> stale(instances_.size(), everything);
     for (const std::uint32_t index : changes.instances) stale[index] = true;
@@ -242,11 +261,14 @@ Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const co
     for (std::uint32_t index = 0; index < instances_.size(); ++index) {
         const shading::InstanceData& data = flat.instances()[index];
         const bool level_rebuilt = data.geometry < rebuilt.size() && rebuilt[data.geometry];
-        const bool mask_changed = instances_[index].attached && data.material < material_changed.size() &&
-                                  material_changed[data.material] && instances_[index].mask != mask_of(flat, index);
-        if (!stale[index] && !level_rebuilt && !mask_changed) continue;
-        if (!place_instance(flat, index, level_rebuilt)) continue;
+        const Instance& instance = instances_[index];
+        const bool mask_changed = instance.attached && data.material < material_changed.size() &&
+                                  material_changed[data.material] && instance.mask != mask_of(flat, index);
+        const bool now_instanced = instance.direct && levels_[data.geometry].scene;
+        if (!stale[index] && !level_rebuilt && !mask_changed && !now_instanced) continue;
+        if (!place_instance(flat, index)) continue;
         ++result.instances_updated;
+        result.geometries_built += level_rebuilt && instance.direct ? 1 : 0;
         top_changed = true;
     }
     if (top_changed) {
@@ -285,7 +307,8 @@ shading::KernelHit EmbreeScene::trace(const shading::KernelRay& ray) const {
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
     hit.kind = shading::kernel_hit_surface;
     hit.t = query.ray.tfar;
-    hit.instance = query.hit.instID[0];
+    const bool direct = query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID;
+    hit.instance = direct ? query.hit.geomID : query.hit.instID[0];
     hit.primitive = query.hit.primID;
     hit.barycentric = {query.hit.u, query.hit.v};
     hit.object_normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};

@@ -24,8 +24,10 @@ using SceneReference = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRe
 using GeometryReference =
     std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeRelease<RTCGeometry, rtcReleaseGeometry>>;
 
-/// Answers the kernel's rays on the CPU: one Embree scene a geometry, over the scene's own vertex arrays,
-/// and a top level of instances numbered as FlatScene numbers them.
+/// Answers the kernel's rays on the CPU, over the scene's own vertex arrays: a top level of instances numbered as
+/// FlatScene numbers them. A mesh that one instance uses as it was modelled stands in the top level itself, whose tree
+/// then need not be left for another; every other geometry has an Embree scene of its own, shapes among them, which
+/// their boxes enclose as tightly as a tree would.
 class EmbreeScene {
 public:
     /// Follows `changes`. The vertex arrays of `flat` must stay in place until the next update. After an
@@ -38,20 +40,23 @@ public:
 
 private:
     struct Level {
-        SceneReference scene;
         std::unique_ptr<Shape> shape;  ///< what the user-geometry callbacks read
+        GeometryReference geometry;
+        SceneReference scene;  ///< what instances show; none while the geometry stands in the top level
     };
     struct Instance {
-        GeometryReference geometry;
-        std::uint32_t level = 0;
         unsigned mask = 0;
         bool attached = false;
+        bool direct = false;  ///< its geometry itself is attached
     };
 
     Result<void> open_device();
-    Result<void> build_geometry(const Geometry* geometry, Level& level);
+    Result<void> take_geometry(const Geometry* geometry, Level& level);
+    void build_level(Level& level);
+    /// Gives shapes, and meshes that have moved or are used again, scenes of their own, which they keep; how many.
+    int build_instanced_levels(const convert::FlatScene& flat);
     /// False where nothing changed: a hole stays a hole.
-    bool place_instance(const convert::FlatScene& flat, std::uint32_t index, bool level_rebuilt);
+    bool place_instance(const convert::FlatScene& flat, std::uint32_t index);
 
     // In this order: the device goes last.
     DeviceReference device_;

@@ -428,6 +428,46 @@ TEST(Updates, FollowMovedChangedAddedAndRemovedThings) {
     EXPECT_EQ(lux({0, 1, true}), 0);
 }
 
+TEST(Updates, FollowAMeshThatMovesIsShownTwiceOrChangesItsMask) {
+    Scene scene;
+    const NodeId lamp = add_shape(scene, Quad{{-1, 1, -1}, {2, 0, 0}, {0, 0, 2}}, lambert(0, 10));
+    const NodeId shade = add_mesh(scene, triangle_mesh({{-9, .5f, -9}, {0, .5f, 9}, {9, .5f, -9}}), lambert(0, 0, true));
+    const Node node = *scene.nodes().find(shade);
+    add_lux(scene, {0, 0, 0}, {0, 1, 0});
+    PathTracer tracer;
+    const auto lux = [&](int geometries_built, int instances_updated) {
+        const auto update = tracer.update(scene);
+        EXPECT_TRUE(update);
+        EXPECT_EQ(update->geometries_built, geometries_built);
+        EXPECT_EQ(update->instances_updated, instances_updated);
+        return tracer.measure(scene, options_of(1, 4096, 1))->front().value;
+    };
+    const double open = 10 * pi * .55412642;
+    const auto moved = [](float x) {
+        Transform transform;
+        transform.translation.x = x;
+        return transform;
+    };
+    EXPECT_EQ(lux(2, 2), 0);
+    Material glass = lambert(0, 0, true);
+    glass.alpha_mode = AlphaMode::blend;
+    glass.opacity = .5f;
+    scene.set_material(node.parts[0].material, glass);
+    EXPECT_NEAR(lux(0, 1), open / 2, .01 * open) << "half of the light passes";
+    Node second = node;
+    second.transform = moved(20);
+    scene.add_node(second);
+    EXPECT_NEAR(lux(1, 2), open / 2, .01 * open) << "shown twice, the mesh has a tree of its own, as what both show";
+    scene.set_transform(shade, moved(-20));
+    EXPECT_NEAR(lux(0, 1), open, .01 * open);
+    scene.set_transform(shade, {});
+    EXPECT_NEAR(lux(0, 1), open / 2, .01 * open) << "once it has moved, it may move at no cost";
+    scene.remove(shade);
+    EXPECT_NEAR(lux(0, 1), open, .01 * open);
+    scene.remove(lamp);
+    EXPECT_EQ(lux(0, 1), 0);
+}
+
 TEST(Updates, MovingOneNodeOfNatusRebuildsNoGeometry) {
     const auto path = shared_path("scenes/natus.heliodon.json");
     if (!path) GTEST_SKIP() << "no shared data";
