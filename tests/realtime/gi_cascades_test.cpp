@@ -57,7 +57,7 @@ protected:
         const char* folder = std::getenv("HELIODON_TEST_PICTURES");
         if (!folder || !*folder) return;
         for (float& value : picture.image.pixels)
-            value = shading::srgb_encode_rgb(shading::tone_hable(glm::vec3(value) * shading::exposure_scale(picture.ev100))).x;
+            value = shading::srgb_encode_rgb(shading::tone_hable(glm::vec3(value) * shading::exposure_scale(picture.ev100), shading::hable_white)).x;
         picture.layers.clear();
         expect(write_picture(std::filesystem::path(folder) / (name + ".png"), picture));
     }

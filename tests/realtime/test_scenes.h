@@ -50,7 +50,7 @@ protected:
         for (std::size_t i = 0; i + 2 < shown.image.pixels.size(); i += 3) {
             float* p = &shown.image.pixels[i];
             const glm::vec3 encoded = shading::srgb_encode_rgb(
-                shading::tone_hable(glm::vec3(p[0], p[1], p[2]) * shading::exposure_scale(picture.ev100)));
+                shading::tone_hable(glm::vec3(p[0], p[1], p[2]) * shading::exposure_scale(picture.ev100), shading::hable_white));
             for (int c = 0; c < 3; ++c) p[c] = encoded[c];
         }
         std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();

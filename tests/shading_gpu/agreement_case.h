@@ -145,7 +145,7 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
         return vec4(sky_direction(uv, 0.3f), uv.x);
     }
     if (k == 8u) {
-        return vec4(tone_hable(vec3(v) * 5.0f), srgb_encode(v.w));
+        return vec4(tone_map(i % 7u, 4.0f, vec3(v) * 5.0f), srgb_encode(v.w));
     }
     if (k == 9u) {
         vec3 w = sample_uniform_sphere(vec2(v));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/false_colour_plan.h"
 #include "core/image.h"
 #include "scene/sensor_reading.h"
 
@@ -19,12 +20,11 @@ struct GridReadings {
 /// The readings of `scene`'s sensors (in their order) that are grids.
 [[nodiscard]] std::vector<GridReadings> grids_of(const Scene& scene, std::span<const SensorReading> readings);
 
-/// Display-encoded colour of `share` in [0, 1]: the cube helix, whose brightness grows evenly, so that it reads in
-/// grey too (Green 2011, "A colour scheme for the display of astronomical intensity images", eq. 2).
-[[nodiscard]] glm::vec3 false_colour(double share);
-
 /// A display-encoded picture of the grids one below the other, u to the right and v up, by one scale: interpolated
 /// between the points, with iso-lines at round values, their numbers and a legend.
 [[nodiscard]] Image draw_grids(std::span<const GridReadings> grids);
+
+/// A display-encoded picture of a picture's luminance (cd/m², or lux), with iso-lines, their numbers and a legend beside it.
+[[nodiscard]] Image draw_in_false_colour(const Image& light, const IsoScale& scale, const std::string& unit);
 
 }  // namespace heliodon::cli

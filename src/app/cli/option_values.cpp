@@ -77,15 +77,40 @@ std::vector<std::string> read_aovs(const std::string& text) {
 }
 
 float read_ev100(const std::string& text) {
-    if (text == "auto")
-        throw CLI::ValidationError("--ev100", "this version has no automatic exposure: expected a number");
     const auto value = read_number<float>(text);
     if (!value || !std::isfinite(*value)) refuse("--ev100", "a number", text);
     return *value;
 }
 
-void check_tonemap(const std::string& text) {
-    if (text != "hable") refuse("--tonemap", "hable (the tone curve that this version has)", text);
+ToneCurve read_tone_curve(const std::string& text) {
+    static constexpr std::pair<std::string_view, ToneCurve> curves[] = {
+        {"linear", ToneCurve::linear}, {"hable", ToneCurve::hable},   {"reinhard", ToneCurve::reinhard},
+        {"aces", ToneCurve::aces},     {"aces-narkowicz", ToneCurve::aces_narkowicz},
+        {"agx", ToneCurve::agx},       {"neutral", ToneCurve::neutral}};
+    for (const auto& [name, curve] : curves)
+        if (text == name) return curve;
+    refuse("--tonemap", "linear, hable, reinhard, aces, aces-narkowicz, agx or neutral", text);
+}
+
+FalseColourRange read_false_colour(const std::string& text) {
+    const std::vector<std::string> parts = CLI::detail::split(text, ':');
+    if (parts.size() == 2 || (parts.size() == 3 && parts[2] == "log")) {
+        const auto low = read_number<double>(parts[0]), high = read_number<double>(parts[1]);
+        const bool logarithmic = parts.size() == 3;
+        if (low && high && std::isfinite(*high) && *low < *high && (logarithmic ? *low > 0 : *low >= 0))
+            return {*low, *high, logarithmic};
+    }
+    refuse("--false-colour", "MIN:MAX or MIN:MAX:log in cd/m2, MIN below MAX and not below 0 (log: above 0)", text);
+}
+
+ProbedPixel read_pixel(const std::string& text) {
+    const std::size_t comma = text.find(',');
+    if (comma != std::string::npos) {
+        const auto x = read_number<int>(std::string_view(text).substr(0, comma));
+        const auto y = read_number<int>(std::string_view(text).substr(comma + 1));
+        if (x && y && *x >= 0 && *y >= 0) return {*x, *y};
+    }
+    refuse("--probe", "X,Y of a pixel, from the top left corner", text);
 }
 
 std::string read_gi(const std::string& text) {

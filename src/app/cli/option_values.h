@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/display_options.h"
+#include "app/cli/probe.h"
 #include "scene/scene.h"
 
 namespace heliodon::cli {
@@ -29,10 +31,12 @@ struct FrameRange {
 /// Comma-separated names out of albedo, normal, depth, position, direct, indirect, and those of is_voxel_aov and is_path_aov.
 [[nodiscard]] std::vector<std::string> read_aovs(const std::string& text);
 
-/// A number; `auto` and other tone and exposure choices that this version lacks are said to be lacking.
 [[nodiscard]] float read_ev100(const std::string& text);
-/// Accepts the tone curves that this version has.
-void check_tonemap(const std::string& text);
+[[nodiscard]] ToneCurve read_tone_curve(const std::string& text);
+/// `MIN:MAX`, 0 ≤ MIN < MAX, or `MIN:MAX:log`, 0 < MIN.
+[[nodiscard]] FalseColourRange read_false_colour(const std::string& text);
+/// `X,Y` of a pixel.
+[[nodiscard]] ProbedPixel read_pixel(const std::string& text);
 /// Accepts the kinds of global illumination that this version has: none, vct.
 [[nodiscard]] std::string read_gi(const std::string& text);
 /// A power of two that a voxel volume may have an edge.

@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include "core/image_io.h"
-#include "shading/tone.h"
 
 namespace heliodon::cli {
 
@@ -17,17 +16,12 @@ Result<void> check_text_writable(const std::filesystem::path& path) {
     return check_directory_writable(path);
 }
 
-Result<void> write_rendered(const std::filesystem::path& path, const Picture& picture) {
+Result<void> write_rendered(const std::filesystem::path& path, const Picture& picture, const DisplaySettings& settings,
+                            const DisplayOptions& options) {
     if (!is_display_format(path)) return write_picture(path, picture);
-    Picture shown;
-    shown.image = Image(picture.image.width, picture.image.height, 3);
-    const float scale = shading::exposure_scale(picture.ev100);
-    for (int y = 0; y < shown.image.height; ++y)
-        for (int x = 0; x < shown.image.width; ++x) {
-            const glm::vec3 color = shading::srgb_encode_rgb(shading::tone_hable(picture.image.rgb(x, y) * scale));
-            for (int c = 0; c < 3; ++c) shown.image.at(x, y, c) = color[c];
-        }
-    return write_picture(path, shown);
+    Picture display;
+    display.image = shown(picture, settings, options);
+    return write_picture(path, display);
 }
 
 std::uint64_t peak_rss_bytes() {

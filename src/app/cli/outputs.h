@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/display_options.h"
 #include "core/image.h"
 #include "core/result.h"
 
@@ -14,8 +15,9 @@ namespace heliodon::cli {
 /// The same for a file of another kind (statistics).
 [[nodiscard]] Result<void> check_text_writable(const std::filesystem::path& path);
 
-/// Writes by ending: .exr, .hdr, .pfm as measured; .png, .jpg exposed, tone-mapped (Hable) and sRGB-encoded.
-[[nodiscard]] Result<void> write_rendered(const std::filesystem::path& path, const Picture& picture);
+/// Writes by ending: .exr, .hdr, .pfm as measured; .png, .jpg as the settings and options show it.
+[[nodiscard]] Result<void> write_rendered(const std::filesystem::path& path, const Picture& picture,
+                                          const DisplaySettings& settings, const DisplayOptions& options);
 
 /// Peak resident memory of this process.
 [[nodiscard]] std::uint64_t peak_rss_bytes();

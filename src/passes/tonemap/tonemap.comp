@@ -13,5 +13,5 @@ void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (pixel.x >= int(push.width) || pixel.y >= int(push.height)) return;
     const vec3 exposed = imageLoad(accumulated, pixel).rgb * push.scale;
-    imageStore(display, pixel, vec4(srgb_encode_rgb(tone_hable(exposed)), 1.0f));
+    imageStore(display, pixel, vec4(srgb_encode_rgb(tone_map(tone_curve_hable, hable_white, exposed)), 1.0f));
 }
