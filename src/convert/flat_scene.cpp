@@ -91,9 +91,9 @@ FlatChanges FlatScene::update(const Scene& scene) {
         }
     }
     for (const std::uint32_t slot : subtrees) write_subtree(scene, slot, changes);
+    if (changes.sky) write_sky(scene, changes);
     sort_unique(changes.instances);
     sort_unique(changes.lights);
-    if (changes.sky) sky_ = pack_sky(scene);
     return changes;
 }
 
@@ -120,7 +120,8 @@ void FlatScene::rebuild(const Scene& scene) {
     materials_.push_back(pack_material(scene, Material{}));
     for (std::uint32_t slot = 0; slot < scene.materials().capacity(); ++slot) write_material(scene, slot, ignored);
     for (const NodeId root : scene.roots()) write_subtree(scene, root.index, ignored);
-    sky_ = pack_sky(scene);
+    sun_ = no_sun;
+    write_sky(scene, ignored);
 }
 
 void FlatScene::refresh_tables(const Scene& scene) {
@@ -179,6 +180,18 @@ shading::LightData FlatScene::flat_light(const Light& light, const glm::mat4& wo
     const LuminaireTables::Place place = luminaires_.place(light.luminaire);
     changes.luminaires = changes.luminaires || luminaires_.values().size() != before;
     return pack_luminaire(light, world, place);
+}
+
+void FlatScene::write_sky(const Scene& scene, FlatChanges& changes) {
+    sky_ = pack_sky(scene);
+    const std::optional<shading::LightData> sun = pack_sun(scene.sky());
+    if (sun && sun_ == no_sun) sun_ = allocate(lights_, free_lights_);
+    if (sun_ == no_sun) return;
+    lights_[sun_] = sun.value_or(no_light());
+    changes.lights.push_back(sun_);
+    if (sun) return;
+    free_lights_.push_back(sun_);
+    sun_ = no_sun;
 }
 
 void FlatScene::clear_node(std::uint32_t slot, FlatChanges& changes) {

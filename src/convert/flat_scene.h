@@ -61,6 +61,7 @@ private:
     void write_material(const Scene& scene, std::uint32_t slot, FlatChanges& changes);
     void write_node(const Scene& scene, std::uint32_t slot, const glm::mat4& world, bool visible, FlatChanges& changes);
     [[nodiscard]] shading::LightData flat_light(const Light& light, const glm::mat4& world, FlatChanges& changes);
+    void write_sky(const Scene& scene, FlatChanges& changes);
     void clear_node(std::uint32_t slot, FlatChanges& changes);
     void write_subtree(const Scene& scene, std::uint32_t slot, FlatChanges& changes);
 
@@ -77,6 +78,8 @@ private:
     std::vector<shading::LightData> lights_;
     LuminaireTables luminaires_;
     shading::SkyData sky_{};
+    std::uint32_t sun_ = no_sun;  ///< among lights_
+    static constexpr std::uint32_t no_sun = 0xffffffffu;
 };
 
 }  // namespace heliodon::convert

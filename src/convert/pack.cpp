@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/units.h"
 #include "shading/cie_sky.h"
+#include "shading/daylight.h"
+#include "shading/sky.h"
 #include "shading/fresnel.h"
 #include "shading/metals.h"
 #include "shading/quadrature.h"
@@ -25,7 +28,7 @@ static_assert(offsetof(MaterialData, anisotropy_axis) == 560 && offsetof(Materia
 static_assert(sizeof(MaterialData) == 592 + 5 * 32);
 static_assert(sizeof(LightData) == 112 && offsetof(LightData, intensity) == 32 && offsetof(LightData, weighted_normal) == 96);
 static_assert(sizeof(InstanceData) == 144);
-static_assert(sizeof(shading::SkyData) == 64 && offsetof(shading::SkyData, sun_direction) == 48);
+static_assert(sizeof(shading::SkyData) == 224 && offsetof(shading::SkyData, sun_direction) == 48 && offsetof(shading::SkyData, daylight) == 80);
 
 TextureRef pack_texture(const Scene& scene, const TextureUse& use) {
     const bool present = scene.textures().contains(use.texture);
@@ -222,18 +225,45 @@ InstanceData pack_instance(const glm::mat4& world, std::uint32_t geometry, std::
     return data;
 }
 
+namespace {
+
+/// Lux on a plane facing the sun of a daylight sky.
+glm::dvec3 sun_lux(const Sky& sky) {
+    if (!sky.is_daylight() || !sky.sun_disc) return glm::dvec3(0);
+    return shading::sun_illuminance(sky.turbidity, sky.sun_elevation_rad, sky.sun_angular_diameter_rad);
+}
+
+}  // namespace
+
+std::optional<LightData> pack_sun(const Sky& sky) {
+    const glm::dvec3 lux = sun_lux(sky);
+    if (!(units::luminance(lux) > 0)) return std::nullopt;
+    Light light;
+    light.type = LightType::directional;
+    light.intensity = glm::vec3(lux);
+    light.direction = -shading::direction_from_azimuth(sky.sun_azimuth_rad, sky.sun_elevation_rad, sky.north_rad);
+    light.angular_diameter_rad = sky.sun_angular_diameter_rad;
+    LightData data = pack_light(light, glm::mat4(1));
+    data.opening = shading::opening_sun;
+    return data;
+}
+
 shading::SkyData pack_sky(const Scene& scene) {
     const Sky& sky = scene.sky();
     shading::SkyData data{};
     data.luminance = sky.luminance_nits;
-    data.model = static_cast<std::uint32_t>(sky.model);
+    data.model = sky.model == SkyModel::constant ? shading::sky_model_constant : shading::sky_model_none;
     data.texture_index = shading::no_texture;
     data.north_rad = sky.north_rad;
+    if (sky.is_daylight())
+        shading::set_daylight_sky({sky.model == SkyModel::hosek ? shading::sky_model_hosek : shading::sky_model_preetham, sky.turbidity,
+                                   sky.ground_albedo, sky.sun_azimuth_rad, sky.sun_elevation_rad, sun_lux(sky)},
+                                  data);
     if (sky.model == SkyModel::cie) shading::set_cie_sky(sky.cie_type, sky.zenith_luminance_nits, sky.ground_albedo,
                                                          sky.sun_azimuth_rad, sky.sun_elevation_rad, data);
-    if (sky.model == SkyModel::image) {
-        if (scene.textures().contains(sky.image)) data.texture_index = sky.image.index;
-        else data.model = shading::sky_model_none;
+    if (sky.model == SkyModel::image && scene.textures().contains(sky.image)) {
+        data.model = shading::sky_model_image;
+        data.texture_index = sky.image.index;
     }
     return data;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "scene/scene.h"
 #include "shading/scene_data.h"
 
@@ -14,6 +16,8 @@ namespace heliodon::convert {
 [[nodiscard]] shading::InstanceData pack_instance(const glm::mat4& world, std::uint32_t geometry, std::uint32_t material,
                                                   bool visible);
 [[nodiscard]] shading::SkyData pack_sky(const Scene& scene);
+/// The sun of a daylight sky as the directional light that it is; none where it has set or the sky shows no disc.
+[[nodiscard]] std::optional<shading::LightData> pack_sun(const Sky& sky);
 /// The first mip level of `texture` whose sides are within `size_limit` texels (0: no limit).
 [[nodiscard]] std::uint32_t first_level(const Texture& texture, int size_limit);
 

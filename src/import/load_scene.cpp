@@ -35,6 +35,9 @@ double mean_sky_luminance(const Scene& scene) {
     if (sky.model == SkyModel::constant) return luminance(sky.luminance_nits);
     // Within a factor of 1.5 for every type: near enough for a camera that was given no exposure.
     if (sky.model == SkyModel::cie) return 0.5 * (1 + sky.ground_albedo) * sky.zenith_luminance_nits;
+    // Within a factor of 2 by day: the sun's light outside the atmosphere, on level ground, and what dusk leaves of it.
+    constexpr double sun_lux = 133100, at_dusk = 1e-3;
+    if (sky.is_daylight()) return sun_lux / (2 * pi) * std::max<double>(std::sin(sky.sun_elevation_rad), at_dusk);
     const Texture* image = sky.model == SkyModel::image ? scene.textures().find(sky.image) : nullptr;
     if (!image || image->levels.empty()) return 0;
     double sum = 0, weights = 0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "shading/light.h"
 #include "shading/luminaire_shape.h"
 #include "shading/sampling.h"
 
@@ -36,6 +37,9 @@ shading::LightData point_of_area_light(const shading::LightData& light, glm::vec
         point.axis = glm::normalize(shading::to_world(shading::frame_from_normal(light.axis), local));
         // The disc's radiance E/(π sin² α) times its solid angle 2π(1 − cos α) is 2E/(1 + cos α).
         point.intensity = light.intensity * (2.0f / (2.0f - one_minus_cos));
+        const float sine = std::sin(light.radius);
+        if (light.opening == shading::opening_sun)
+            point.intensity *= shading::limb_darkening((local.x * local.x + local.y * local.y) / (sine * sine));
         return point;
     }
     if (light.type == shading::light_type_point) {

@@ -65,7 +65,7 @@ struct Node {
     [[nodiscard]] std::span<const NodeId> children() const { return links.children; }
 };
 
-enum class SkyModel : std::uint8_t { none, constant, image, cie };
+enum class SkyModel : std::uint8_t { none, constant, image, cie, hosek, preetham };
 struct Sky {
     SkyModel model = SkyModel::none;
     glm::vec3 luminance_nits{0};  ///< constant; for an image sky it scales the image (default 1)
@@ -75,9 +75,15 @@ struct Sky {
     static constexpr int traditional_overcast = 16;
     int cie_type = 1;                     ///< ISO 15469's 1 to 15, or traditional_overcast
     float zenith_luminance_nits = 5000;   ///< cie
-    float ground_albedo = 0.2f;           ///< cie: below the horizon a diffuse ground that the sky lights
-    float sun_azimuth_rad = 0;            ///< cie: clockwise from north
-    float sun_elevation_rad = std::numbers::pi_v<float> / 2;
+    float ground_albedo = 0.2f;           ///< cie, hosek, preetham: below the horizon a diffuse ground that the sky lights
+    float sun_azimuth_rad = 0;            ///< cie, hosek, preetham: clockwise from north
+    float sun_elevation_rad = std::numbers::pi_v<float> / 2;  ///< of the middle of its disc, as it appears
+    float turbidity = 3;                  ///< hosek, preetham
+    static constexpr float least_turbidity_hosek = 1, least_turbidity_preetham = 2, most_turbidity = 10;
+    bool sun_disc = true;                 ///< hosek, preetham: the sun itself shines, as a disc that darkens to its limb
+    float sun_angular_diameter_rad = glm::radians(0.53f);
+
+    [[nodiscard]] bool is_daylight() const { return model == SkyModel::hosek || model == SkyModel::preetham; }
 };
 
 /// counts.x × counts.y cells of the parallelogram u, v, whose front is u × v.

@@ -39,6 +39,7 @@ struct SceneFileReaders {
 struct Override {
     std::string path;
     std::string value;
+    std::string option = {};  ///< what errors call it; empty: "--set PATH=VALUE"
 };
 
 /// Reads a `*.heliodon.json` scene file (docs/scene-format.md, docs/scene.schema.json). Unknown keys are

@@ -3,6 +3,7 @@
 
 #include "scene/render_limits.h"
 #include "scene/scene_file_parts.h"
+#include "scene/sun_position.h"
 
 namespace heliodon::scene_file {
 namespace {
@@ -20,47 +21,78 @@ void check_view(const JsonCursor& cursor, const Camera& camera) {
         throw Refusal{cursor.path(), "expected far_m beyond near_m (or 0: infinite), found it nearer"};
 }
 
-/// Where the sun of a CIE sky stands; its disc is none of it.
-void read_cie_sun(const JsonCursor& cursor, Sky& sky) {
+/// The sun's disc, and where it stands if the block says so.
+bool read_sun(const JsonCursor& cursor, Sky& sky) {
     ObjectReader sun(cursor);
-    sky.sun_azimuth_rad = glm::radians(sun.require("azimuth_deg").number());
-    sky.sun_elevation_rad = glm::radians(sun.require("elevation_deg").number(Range{.low = 0, .high = 90}));
-    if (const auto disc = sun.find("disc"); disc && disc->boolean())
-        disc->refuse_as_unsupported("suns with a disc", "false (a directional light gives the sun's own light)");
-    float ignored = 0;
-    sun.read("angular_diameter_deg", ignored, positive);
+    const auto azimuth = sun.find("azimuth_deg"), elevation = sun.find("elevation_deg");
+    if (azimuth && !elevation) (void)sun.require("elevation_deg");
+    if (elevation && !azimuth) (void)sun.require("azimuth_deg");
+    if (azimuth) {
+        sky.sun_azimuth_rad = glm::radians(azimuth->number());
+        sky.sun_elevation_rad = glm::radians(elevation->number(Range{.low = sky.is_daylight() ? -90.0 : 0.0, .high = 90}));
+    }
+    const auto disc = sun.find("disc");
+    if (disc) sky.sun_disc = disc->boolean();
+    if (disc && sky.sun_disc && !sky.is_daylight())
+        disc->refuse_as_unsupported("suns with a disc in a CIE sky", "false (a directional light gives the sun's own light)");
+    constexpr Range angle_deg{.low = 0, .high = 10, .low_excluded = true};
+    sun.read_degrees("angular_diameter_deg", sky.sun_angular_diameter_rad, angle_deg);
     sun.finish();
+    return azimuth.has_value();
 }
 
-/// What daylight models use: kept for a CIE sky, checked for others.
+/// Where the sun stands at the sky's place and time, if it says both; a part of them is refused if they are needed.
+std::optional<SunPosition> read_place_and_time(ObjectReader& object, bool needed) {
+    constexpr Range latitude_deg{.low = -90, .high = 90}, longitude_deg{.low = -180, .high = 180};
+    const auto time = object.find("time"), latitude = object.find("latitude_deg"), longitude = object.find("longitude_deg");
+    Place place;
+    CivilTime moment;
+    if (latitude) place.latitude_rad = glm::radians(double(latitude->number(latitude_deg)));
+    if (longitude) place.longitude_rad = glm::radians(double(longitude->number(longitude_deg)));
+    if (time) {
+        const auto parsed = parse_civil_time(time->name());
+        if (!parsed) throw Refusal{time->path(), parsed.error().message};
+        moment = *parsed;
+    }
+    if (needed && (time || latitude || longitude))
+        for (const char* key : {"latitude_deg", "longitude_deg", "time"}) (void)object.require(key);
+    return time && latitude && longitude ? std::optional(sun_position(place, moment.unix_s)) : std::nullopt;
+}
+
+/// What the sky's formulas use: kept for them, checked for others.
 void read_daylight(ObjectReader& object, Sky& sky) {
-    constexpr Range latitude{.low = -90, .high = 90}, longitude{.low = -180, .high = 180};
-    float ignored = 0;
-    object.read("turbidity", ignored, Range{.low = 1, .high = 64});
+    const float least = sky.model == SkyModel::preetham ? Sky::least_turbidity_preetham : Sky::least_turbidity_hosek;
+    object.read("turbidity", sky.turbidity, Range{.low = least, .high = Sky::most_turbidity});
     object.read("ground_albedo", sky.ground_albedo, unit_interval);
     object.read("cie_type", sky.cie_type, 1, Sky::traditional_overcast);
     object.read("zenith_luminance_nits", sky.zenith_luminance_nits, not_negative);
-    object.read("latitude_deg", ignored, latitude);
-    object.read("longitude_deg", ignored, longitude);
-    if (const auto time = object.find("time")) (void)time->name();
     const auto sun = object.find("sun");
-    if (sun && sky.model != SkyModel::cie) sun->refuse_as_unsupported("suns in the sky", "none with this sky model");
-    if (sun) read_cie_sun(*sun, sky);
+    if (sun && sky.model != SkyModel::cie && !sky.is_daylight())
+        sun->refuse_as_unsupported("suns in the sky", "none with this sky model");
     // Overcast types 1, 3 and 5 and the traditional one are the same all round.
     const bool turns = sky.cie_type != Sky::traditional_overcast && (sky.cie_type > 5 || sky.cie_type % 2 == 0);
-    if (sky.model == SkyModel::cie && turns && !sun)
-        throw Refusal{object.cursor().path(), fmt::format("expected \"sun\" with cie_type {}: its light depends on where the sun stands", sky.cie_type)};
+    const bool stands = sun && read_sun(*sun, sky), needed = !stands && (sky.is_daylight() || (sky.model == SkyModel::cie && turns));
+    const auto position = read_place_and_time(object, needed);
+    if (!needed) return;
+    const std::string& path = object.cursor().path();
+    if (!position)
+        throw Refusal{path, fmt::format("expected where the sun stands, on which the light of {} depends: \"sun\" with azimuth_deg and elevation_deg, or "
+                                        "latitude_deg, longitude_deg and time; found neither",
+                                        sky.is_daylight() ? "this model" : fmt::format("cie_type {}", sky.cie_type))};
+    if (sky.model == SkyModel::cie && position->elevation_rad < 0)
+        throw Refusal{path, fmt::format("expected a time by day with a cie sky, found the sun at an elevation of {:.2f}°", glm::degrees(position->elevation_rad))};
+    sky.sun_azimuth_rad = static_cast<float>(position->azimuth_rad);
+    sky.sun_elevation_rad = static_cast<float>(position->elevation_rad);
 }
 
 SkyModel read_sky_model(ObjectReader& sky) {
     const auto model = sky.find("model");
     if (!model) return SkyModel::none;
-    for (const char* daylight : {"preetham", "hosek"})
-        if (model->json() == daylight)
-            model->refuse_as_unsupported("the daylight models of Preetham and of Hosek", "one of \"none\", \"constant\", \"image\", \"cie\"");
     return model->one_of<SkyModel>({{"none", SkyModel::none},
                                     {"constant", SkyModel::constant},
                                     {"image", SkyModel::image},
+                                    {"preetham", SkyModel::preetham},
+                                    {"hosek", SkyModel::hosek},
                                     {"cie", SkyModel::cie}});
 }
 

@@ -93,6 +93,14 @@ void remove_alternatives(const Place& object, std::string_view key) {
         if (set == key) object.value->erase(std::string(replaced));
 }
 
+/// A time says where the sun stands.
+void remove_sun_direction(Json& sky) {
+    const auto sun = sky.find("sun");
+    if (sun == sky.end() || !sun->is_object()) return;
+    sun->erase("azimuth_deg");
+    sun->erase("elevation_deg");
+}
+
 /// Where `path` leads; members that are missing are made.
 Result<AppliedOverride> set_value(Json& document, const Override& override_, const std::string& label) {
     Place at{&document, "$"};
@@ -123,6 +131,7 @@ Result<AppliedOverride> set_value(Json& document, const Override& override_, con
         at = next->place;
         rest = next->rest;
     }
+    if (at.path == "$.sky.time") remove_sun_direction(document["sky"]);
     const Result<Json> value = parse_document(override_.value, label);
     *at.value = value ? *value : Json(override_.value);
     return AppliedOverride{label, at.path, first_made.empty() ? at.path : first_made};
@@ -133,7 +142,7 @@ Result<AppliedOverride> set_value(Json& document, const Override& override_, con
 Result<std::vector<AppliedOverride>> apply_overrides(Json& document, std::span<const Override> overrides) {
     std::vector<AppliedOverride> applied;
     for (const Override& override_ : overrides) {
-        const std::string label = fmt::format("--set {}={}", override_.path, override_.value);
+        const std::string label = override_.option.empty() ? fmt::format("--set {}={}", override_.path, override_.value) : override_.option;
         if (override_.path.empty()) return fail(label, "expected a dotted path before '=', found none");
         Result<AppliedOverride> result = set_value(document, override_, label);
         if (!result) return tl::unexpected<Error>(result.error());

@@ -45,21 +45,25 @@ void set_cie_sky(int type, float zenith_luminance, float ground_albedo, float su
         const float sun_zenith_angle = 0.5f * pi - sun_elevation;
         sky.luminance /= cie_gradation(p.a, p.b, 1.0f) * cie_indicatrix(p.c, p.d, p.e, sun_zenith_angle);
     }
-    sky.ground_luminance = static_cast<float>(ground_albedo * horizontal_illuminance(sky) / pi);
+    sky.ground = vec3(static_cast<float>(ground_albedo * horizontal_illuminance(sky) / pi));
 }
 
-double horizontal_illuminance(const SkyData& sky) {
+glm::dvec3 horizontal_illuminance_rgb(const SkyData& sky) {
     static const GaussLegendre<64> elevations;
     // Azimuth goes round: even steps are exact for smooth skies, and the cusp about the sun is mild.
     constexpr int azimuths = 512;
-    double sum = 0;
+    glm::dvec3 sum(0);
     for (std::size_t i = 0; i < elevations.x.size(); ++i)
         for (int j = 0; j < azimuths; ++j) {
             const double sine = elevations.x[i], cosine = std::sqrt(1 - sine * sine), azimuth = 2 * std::numbers::pi * j / azimuths;
             const vec3 direction(cosine * std::sin(azimuth), sine, cosine * std::cos(azimuth));
-            sum += elevations.weight[i] * sine * luminance(glm::dvec3(sky_radiance(sky, direction, vec3(1.0f))));
+            sum += elevations.weight[i] * sine * glm::dvec3(sky_radiance(sky, direction, vec3(1.0f)));
         }
     return 2 * std::numbers::pi / azimuths * sum;
+}
+
+double horizontal_illuminance(const SkyData& sky) {
+    return units::luminance(horizontal_illuminance_rgb(sky));
 }
 
 }  // namespace heliodon::shading

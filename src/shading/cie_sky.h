@@ -13,5 +13,7 @@ void set_cie_sky(int type, float zenith_luminance, float ground_albedo, float su
 
 /// Lux on the open ground under a sky of a formula, by quadrature to 10⁻⁵. The sun's own light is no part of it.
 [[nodiscard]] double horizontal_illuminance(const SkyData& sky);
+/// The same, linear Rec. 709.
+[[nodiscard]] glm::dvec3 horizontal_illuminance_rgb(const SkyData& sky);
 
 }  // namespace heliodon::shading

@@ -81,6 +81,14 @@ SHADING_FN float light_cone(LightData light, vec3 point) {
     return d2 <= r2 ? 0.0f : one_minus_cos_from_sin2(r2 / d2);
 }
 
+/// The sun's luminance relative to its mean, at sin²(angle from its middle) / sin²(angular radius): Neckel & Labs 1994, "Solar
+/// limb darkening 1986-1990", table 1, at 560 nm. Its mean over the disc is 0.80605 of the middle's.
+SHADING_FN float limb_darkening(float sin2_ratio) {
+    float mu = sqrt(max(1.0f - sin2_ratio, 0.0f));
+    float of_middle = 0.26892f + mu * (1.34319f + mu * (-1.58427f + mu * (1.91271f + mu * (-1.3135f + mu * 0.37295f))));
+    return of_middle * (1.0f / 0.80605f);
+}
+
 /// Radiance in cd/m² along a ray that travels in `direction` and meets the area light. A sphere's
 /// radiance I(ω)/(πr²) makes its far intensity I(ω) exactly; a disc's E/(π sin² α) its illuminance E on a
 /// plane facing it.
@@ -90,7 +98,14 @@ SHADING_FN vec3 light_radiance(LightData light, vec3 direction) {
     }
     if (light.type == light_type_directional) {
         float s = sin(light.radius);
-        return light.intensity / (pi * s * s);
+        vec3 mean = light.intensity / (pi * s * s);
+        if (light.opening != opening_sun) {
+            return mean;
+        }
+        // The chord keeps the digits of small angles.
+        vec3 chord = direction + light.axis;
+        float chord2 = dot(chord, chord);
+        return mean * limb_darkening(chord2 * (1.0f - 0.25f * chord2) / (s * s));
     }
     return light_intensity(light, -direction) / (pi * light.radius * light.radius);
 }

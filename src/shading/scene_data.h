@@ -103,6 +103,7 @@ SHADING_CONST uint opening_cylinder_y = 2u;
 SHADING_CONST uint opening_cylinder_z = 3u;
 SHADING_CONST uint opening_ellipsoid = 4u;
 SHADING_CONST uint opening_shape_bits = 0xffu;
+SHADING_CONST uint opening_sun = 0x200u;  // a directional light whose disc darkens towards its limb
 SHADING_CONST uint opening_mirrored = 0x100u;  // azimuth angles run the other way round
 
 struct LightData {
@@ -120,7 +121,7 @@ struct LightData {
     vec3 tangent;  // unit: x
     uint table;    // where its table begins (luminaire_value)
     vec3 half_extent;  // of the luminous opening, m
-    uint opening;      // opening_… shape and flags
+    uint opening;      // opening_… shape and flags; directional lights: opening_sun or 0
     vec3 weighted_normal;  // one point of an opening with a volume (opening_surface_point), world; else 0
     uint face_weights;     // of the opening: how often opening_surface_point picks each
 };
@@ -141,16 +142,21 @@ SHADING_CONST uint sky_model_constant = 1u;
 SHADING_CONST uint sky_model_image = 2u;
 SHADING_CONST uint sky_model_cie = 3u;       // ISO 15469's fifteen types
 SHADING_CONST uint sky_model_overcast = 4u;  // and its traditional overcast sky
+SHADING_CONST uint sky_model_hosek = 5u;
+SHADING_CONST uint sky_model_preetham = 6u;
 struct SkyData {
     vec3 luminance;  // constant: cd/m²; image: scale; cie: cd/m² where gradation and indicatrix are 1; overcast: zenith
     uint model;
     uint texture_index;
     float north_rad;
-    float ground_luminance;  // cie, overcast: cd/m² below the horizon
+    float horizon;  // hosek, preetham: added to the cosine of the zenith angle in the gradation
     float indicatrix_e;
     vec4 gradation_indicatrix;  // cie: the standard's a, b, c, d
-    vec3 sun_direction;         // unit, towards the sun
+    vec3 sun_direction;         // unit, towards the sun; hosek, preetham: or to where it set
     float padding;
+    vec3 ground;  // formulas: cd/m² below the horizon
+    float padding2;
+    vec4 daylight[9];  // hosek, preetham: A, B, C, D, E, F, G, I, H of daylight_values, each of three values
 };
 
 SHADING_END

@@ -41,13 +41,51 @@ SHADING_FN float cie_indicatrix(float c, float d, float e, float angle) {
     return 1.0f + c * (exp(d * angle) - exp(d * (0.5f * pi))) + e * cosine * cosine;
 }
 
+/// CIE 1931 XYZ to linear Rec. 709: the inverse of IEC 61966-2-1:1999's matrix, by which Y is the luminance exactly.
+SHADING_FN vec3 rgb_from_xyz(vec3 xyz) {
+    return vec3(3.2406255f * xyz.x - 1.5372080f * xyz.y - 0.4986286f * xyz.z,
+                -0.9689307f * xyz.x + 1.8757561f * xyz.y + 0.0415175f * xyz.z,
+                0.0557101f * xyz.x - 0.2040211f * xyz.y + 1.0569959f * xyz.z);
+}
+/// A colour that Rec. 709 cannot show moves towards the grey of its luminance until it can.
+SHADING_FN vec3 into_gamut(vec3 rgb, float luminance) {
+    float lowest = min(min(rgb.x, rgb.y), rgb.z);
+    if (luminance <= 0.0f) {
+        return vec3(0.0f);
+    }
+    return lowest < 0.0f ? vec3(luminance) + (rgb - vec3(luminance)) * (luminance / (luminance - lowest)) : rgb;
+}
+
+/// Hošek & Wilkie 2012, "An Analytic Model for Full Spectral Sky-Dome Radiance", eq. 8, of three values. Perez, Seals &
+/// Michalsky's 1993 formula, which Preetham, Shirley & Smits 1999 fit (eq. 3), is the same with G = I = 0.
+SHADING_FN vec3 daylight_values(SHADING_IN(SkyData) sky, vec3 direction) {
+    float from_sun = 2.0f * asin(min(0.5f * length(direction - sky.sun_direction), 1.0f));
+    float cosine = cos(from_sun);
+    vec3 h = vec3(sky.daylight[8]);
+    vec3 across = max(vec3(1.0f) + h * h - h * (2.0f * cosine), vec3(1.0e-6f));
+    vec3 halo = vec3(1.0f + cosine * cosine) / (across * sqrt(across));  // χ
+    vec3 gradation = vec3(1.0f) + vec3(sky.daylight[0]) * exp(vec3(sky.daylight[1]) / max(direction.y + sky.horizon, 1.0e-4f));
+    vec3 indicatrix = vec3(sky.daylight[2]) + vec3(sky.daylight[3]) * exp(vec3(sky.daylight[4]) * from_sun) +
+                      vec3(sky.daylight[5]) * (cosine * cosine) + vec3(sky.daylight[6]) * halo +
+                      vec3(sky.daylight[7]) * sqrt(max(direction.y, 0.0f));
+    return gradation * indicatrix;
+}
+SHADING_FN vec3 daylight_radiance(SHADING_IN(SkyData) sky, vec3 direction) {
+    vec3 values = daylight_values(sky, direction);
+    if (sky.model == sky_model_preetham) {  // Y, x, y
+        float per_y = values.x / values.z;
+        values = vec3(values.y * per_y, values.x, (1.0f - values.y - values.z) * per_y);
+    }
+    return into_gamut(rgb_from_xyz(values), values.y);
+}
+
 /// A sky whose luminance is a formula of direction.
-SHADING_FN bool sky_is_formula(SkyData sky) {
-    return sky.model == sky_model_cie || sky.model == sky_model_overcast;
+SHADING_FN bool sky_is_formula(SHADING_IN(SkyData) sky) {
+    return sky.model >= sky_model_cie;
 }
 
 /// Radiance in cd/m². `texel` is the image at sky_uv (anything for other models).
-SHADING_FN vec3 sky_radiance(SkyData sky, vec3 direction, vec3 texel) {
+SHADING_FN vec3 sky_radiance(SHADING_IN(SkyData) sky, vec3 direction, vec3 texel) {
     if (sky.model == sky_model_constant) {
         return sky.luminance;
     }
@@ -58,10 +96,13 @@ SHADING_FN vec3 sky_radiance(SkyData sky, vec3 direction, vec3 texel) {
         return vec3(0.0f);
     }
     if (direction.y < 0.0f) {
-        return vec3(sky.ground_luminance);
+        return sky.ground;
     }
     if (sky.model == sky_model_overcast) {
         return sky.luminance * ((1.0f + 2.0f * direction.y) * (1.0f / 3.0f));  // Moon & Spencer 1942
+    }
+    if (sky.model != sky_model_cie) {
+        return daylight_radiance(sky, direction);
     }
     // The chord keeps the digits of small angles.
     float from_sun = 2.0f * asin(min(0.5f * length(direction - sky.sun_direction), 1.0f));
@@ -69,7 +110,7 @@ SHADING_FN vec3 sky_radiance(SkyData sky, vec3 direction, vec3 texel) {
     return sky.luminance * (cie_gradation(p.x, p.y, direction.y) * cie_indicatrix(p.z, p.w, sky.indicatrix_e, from_sun));
 }
 /// The same of a mean over directions: `texel` is the mean of the image, or of a formula's own radiance.
-SHADING_FN vec3 sky_radiance_filtered(SkyData sky, vec3 texel) {
+SHADING_FN vec3 sky_radiance_filtered(SHADING_IN(SkyData) sky, vec3 texel) {
     if (sky.model == sky_model_none) {
         return vec3(0.0f);
     }

@@ -238,6 +238,28 @@ TEST(SceneFile, ReadsCieSkiesWithTheirSun) {
     EXPECT_EQ(parsed(R"({"heliodon": 1, "sky": {"model": "cie", "cie_type": 16}})").sky().cie_type, Sky::traditional_overcast);
 }
 
+TEST(SceneFile, ReadsDaylightWithItsSunByItsPlaceOrByPlaceAndTime) {
+    const Sky direct = parsed(R"({"heliodon": 1, "sky": {"model": "preetham", "turbidity": 4, "ground_albedo": 0.3,
+        "latitude_deg": 48.8, "longitude_deg": 9.2, "time": "2026-06-21T17:00:00+02:00",
+        "sun": {"azimuth_deg": 140, "elevation_deg": -3, "disc": false, "angular_diameter_deg": 1}}})").sky();
+    EXPECT_EQ(direct.model, SkyModel::preetham);
+    EXPECT_EQ(direct.turbidity, 4);
+    EXPECT_FLOAT_EQ(direct.sun_azimuth_rad, glm::radians(140.0f)) << "the sun that is given wins";
+    EXPECT_FLOAT_EQ(direct.sun_elevation_rad, glm::radians(-3.0f));
+    EXPECT_FLOAT_EQ(direct.sun_angular_diameter_rad, glm::radians(1.0f));
+    EXPECT_FALSE(direct.sun_disc);
+    const std::string by_time = R"({"heliodon": 1, "sky": {"model": "hosek", "latitude_deg": 59.32938, "longitude_deg": 18.06871,
+        "time": "2026-07-06T14:00:00+02:00", "sun": {"disc": true}}})";
+    const Sky timed = parsed(by_time).sky();
+    EXPECT_EQ(timed.model, SkyModel::hosek);
+    EXPECT_NEAR(glm::degrees(timed.sun_azimuth_rad), 205.437817, 0.01) << "JPL Horizons";
+    EXPECT_NEAR(glm::degrees(timed.sun_elevation_rad), 51.435969, 0.01);
+    EXPECT_TRUE(timed.sun_disc);
+    const Sky cie = parsed(R"({"heliodon": 1, "sky": {"model": "cie", "cie_type": 12, "latitude_deg": 59.32938, "longitude_deg": 18.06871,
+        "time": "2026-07-06T12:00:00Z"}})").sky();
+    EXPECT_EQ(cie.sun_elevation_rad, timed.sun_elevation_rad);
+}
+
 TEST(SceneFile, ReadsPanes) {
     const Scene scene = parsed(R"({"heliodon": 1, "materials": {
         "glass": {"model": "thin", "transmittance": [-0.03, 3.2, -3.1, -1.4, 4.0, -1.8], "reflectance": 0.05},

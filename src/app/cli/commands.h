@@ -19,6 +19,7 @@ using Action = std::function<Result<void>()>;
 [[nodiscard]] Action declare_render(CLI::App& command);
 [[nodiscard]] Action declare_measure(CLI::App& command);
 [[nodiscard]] Action declare_compare(CLI::App& command);
+[[nodiscard]] Action declare_sun(CLI::App& command);
 [[nodiscard]] Action declare_bench(CLI::App& command);
 [[nodiscard]] Action declare_info(CLI::App& command);
 [[nodiscard]] Action declare_devices(CLI::App& command);

@@ -23,6 +23,7 @@ constexpr Command commands[] = {
     {"render", "Render one picture, or the frames of an animation", declare_render},
     {"measure", "Measure the scene's sensors, in lux or cd/m²", declare_measure},
     {"compare", "Compute error metrics between two pictures", declare_compare},
+    {"sun", "Say where the sun stands at a place and time, when it rises and sets, and how bright it makes the day", declare_sun},
     {"bench", "Measure the field's published tables on this machine", declare_bench},
     {"info", "Say what a scene holds and what was approximated on import", declare_info},
     {"devices", "List the Vulkan devices and what each supports", declare_devices},

@@ -130,6 +130,7 @@ Result<void> measure(const MeasureOptions& options) {
         if (auto checked = check_writable(options.false_colour); !checked) return checked;
     auto scene = load(options.scene);
     if (!scene) return tl::unexpected(scene.error());
+    if (options.no_environment) put_out_sun(*scene);
     if (scene->sensors().size() == 0) return fail(options.scene.path, "expected sensors to measure, found none");
     bool has_grid = false;
     scene->sensors().each([&](SensorId, const Sensor& sensor) { has_grid = has_grid || sensor.grid; });
@@ -149,6 +150,7 @@ Result<void> measure(const MeasureOptions& options) {
 Action declare_measure(CLI::App& command) {
     auto options = std::make_shared<MeasureOptions>();
     add_scene_argument(command, options->scene);
+    add_time_option(command, options->scene);
     command.add_option_function<std::string>(
         "--engine", [options = options.get()](const std::string& text) { options->engine = read_engine(text); },
         "path (default) or realtime");

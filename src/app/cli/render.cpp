@@ -268,6 +268,7 @@ Result<void> render(const RenderOptions& options) {
 
     auto scene = load(options.scene);
     if (!scene) return tl::unexpected(scene.error());
+    if (options.no_environment) put_out_sun(*scene);
     if (options.engine == Engine::realtime) {
         apply_gi_options(options.gi, options.scene, *scene);
         warn_without_effect(options.gi, *scene);
@@ -362,6 +363,7 @@ void declare_picture_options(CLI::App& command, RenderOptions& options) {
 Action declare_render(CLI::App& command) {
     auto options = std::make_shared<RenderOptions>();
     add_scene_argument(command, options->scene);
+    add_time_option(command, options->scene);
     declare_picture_options(command, *options);
     declare_engine_options(command, *options);
     return [options] { return render(*options); };

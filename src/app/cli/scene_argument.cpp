@@ -18,6 +18,12 @@ void add_override_option(CLI::App& command, SceneArgument& argument) {
         });
 }
 
+void add_time_option(CLI::App& command, SceneArgument& argument) {
+    command.add_option("--time", argument.time,
+                       "Moment as ISO 8601 with its offset (2026-03-21T09:00:00+01:00): puts the sky's sun where it stands "
+                       "then, in the place of sky.time and sky.sun");
+}
+
 CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument) {
     CLI::Option* scene =
         command.add_option("SCENE", argument.path, "A scene file (*.heliodon.json) a model (.obj, .gltf, .glb) or a luminaire (.ies, .ldt)")
@@ -32,6 +38,7 @@ Result<Scene> load(const SceneArgument& argument, Warnings& warnings) {
         const std::size_t equals = text.find('=');
         overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
     }
+    if (!argument.time.empty()) overrides.push_back({"sky.time", argument.time, "--time " + argument.time});
     return load_scene(argument.path, overrides, warnings);
 }
 
@@ -40,6 +47,13 @@ Result<Scene> load(const SceneArgument& argument) {
     auto scene = load(argument, warnings);
     if (scene) report_warnings(warnings);
     return scene;
+}
+
+void put_out_sun(Scene& scene) {
+    Sky sky = scene.sky();
+    if (!sky.is_daylight() || !sky.sun_disc) return;
+    sky.sun_disc = false;
+    scene.set_sky(sky);
 }
 
 Result<Camera> choose_camera(const Scene& scene, const SceneArgument& argument, const std::string& name) {

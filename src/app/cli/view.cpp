@@ -45,6 +45,7 @@ Result<void> view(ViewOptions options) {
 Action declare_view(CLI::App& command) {
     auto options = std::make_shared<ViewOptions>();
     add_scene_argument(command, options->scene)->required(false);
+    add_time_option(command, options->scene);
     command.add_option_function<std::string>(
         "--size",
         [settings = &options->settings](const std::string& text) {

@@ -36,12 +36,15 @@ Result<gpu::Image> draw_sky(gpu::Device& device, gpu::Pipelines& pipelines, cons
     if (!pipeline) return tl::unexpected(pipeline.error());
     auto image = map_image(device, "sky picture", sky_picture_width, std::bit_width(sky_picture_width) - 1);
     if (!image) return image;
+    auto record = gpu::Buffer::create(device, {"sky record", sizeof sky});
+    if (!record) return tl::unexpected(record.error());
+    if (auto uploaded = device.upload<shading::SkyData>(*record, std::span(&sky, 1)); !uploaded) return tl::unexpected(uploaded.error());
     auto done = device.run("sky picture", [&](gpu::Commands& commands) {
         commands.transition(*image, storage);
         for (std::uint32_t level = 0; level < image->mips(); ++level) {
             const VkExtent3D extent = image->extent(level);
-            commands.dispatch_threads(**pipeline, shading::SkyPictureConstants{sky, extent.width, extent.height},
-                                      {image->mip(level)}, {extent.width, extent.height, 1});
+            commands.dispatch_threads(**pipeline, shading::SkyPictureConstants{extent.width, extent.height},
+                                      {image->mip(level), *record}, {extent.width, extent.height, 1});
         }
         commands.transition(*image, sampled);
     });

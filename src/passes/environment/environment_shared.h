@@ -12,7 +12,6 @@ struct EnvironmentConstants {
 };
 
 struct SkyPictureConstants {
-    SkyData sky;
     uint width;  // of the level being written
     uint height;
 };
