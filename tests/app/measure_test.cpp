@@ -152,5 +152,65 @@ TEST_F(Measure, EveryPointOfCie171IsMeasuredWithinItsConfidence) {
         }
 }
 
+/// A white floor under a lamp, seen from above; around it nothing.
+class Probe : public Measure {
+protected:
+    void SetUp() override {
+        Measure::SetUp();
+        write("s.heliodon.json", R"({"heliodon": 1, "materials": {"white": {"model": "lambert", "base_color": [0.5, 0.5, 0.5]}},
+            "sensors": [{"name": "a", "type": "illuminance", "position": [0, 1, 0], "normal": [0, 1, 0]},
+                        {"name": "b", "type": "illuminance", "position": [0, 1, 0], "normal": [0, 1, 0]}],
+            "cameras": [{"name": "top", "position": [0, 4, 0], "target": [0, 0, 0], "up": [0, 0, -1], "vertical_fov_deg": 45}],
+            "nodes": [{"name": "floor", "shape": {"type": "quad", "origin": [-1, 0, -1], "u": [0, 0, 2], "v": [2, 0, 0]}, "material": "white"},
+                      {"name": "bulb", "light": {"type": "point", "intensity_cd": 400}, "translate": [0, 2, 0]}]})");
+    }
+};
+
+TEST_F(Probe, APixelReadsItsLuminanceAndTheIlluminanceOfTheSurfaceThereWithBothEngines) {
+    for (const std::string engine : {"path", "realtime"}) {
+        const Ended ended = run({"render", "s.heliodon.json", "--engine", engine, "--size", "65x65", "--spp", "4", "-o", "p.exr", "--probe",
+                                 "32,32", "--probe", "0,0", "--probe", "40,32", "--json"});
+        ASSERT_EQ(ended.code, 0) << ended.error;
+        const json probes = json::parse(ended.output)["probes"];
+        ASSERT_EQ(probes.size(), 3u);
+        EXPECT_NEAR(probes[0]["illuminance_lux"], 100, 0.1) << engine << ": 400 cd at 2 m";
+        EXPECT_NEAR(probes[0]["luminance_nits"], 0.5 * 100 / 3.14159, 0.1) << engine;
+        EXPECT_FALSE(probes[1].contains("illuminance_lux")) << engine << ": beside the floor";
+        const double x = probes[2]["position"][0];
+        EXPECT_NEAR(x, 4 * std::tan(0.392699) * 16 / 65, 2e-3) << engine;
+        EXPECT_NEAR(probes[2]["illuminance_lux"], 400 * 2 / std::pow(4 + x * x, 1.5), 0.1) << engine;
+        EXPECT_NE(ended.error.find("no surface"), std::string::npos) << "said in words too: " << ended.error;
+    }
+}
+
+TEST_F(Probe, FalseColourShowsLuminanceByTheScaleAskedFor) {
+    const Ended ended = run({"render", "s.heliodon.json", "--engine", "path", "--size", "64x64", "--spp", "4", "--max-depth", "1", "-o", "p.png", "-o",
+                             "p.exr", "--false-colour", "0:20"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const auto picture = read_picture(folder() / "p.png"), measured = read_picture(folder() / "p.exr");
+    ASSERT_TRUE(picture && measured);
+    EXPECT_GT(picture->image.width, 64) << "a legend beside it";
+    EXPECT_NEAR(measured->image.at(32, 32, 1), 15.9, 0.2) << "what is measured stays as it is";
+    const auto brightness = [&](int x, int y) { return picture->image.at(x, y, 0) + picture->image.at(x, y, 1) + picture->image.at(x, y, 2); };
+    EXPECT_GT(brightness(30, 30), brightness(14, 14));
+    EXPECT_LT(brightness(1, 1), 0.01f);
+}
+
+TEST_F(Probe, AMetersExposureIsStoredAndFollowsTheLight) {
+    const auto ev100 = [&](const char* intensity, const char* exposure) {
+        const Ended ended = run({"render", "s.heliodon.json", "--engine", "path", "--size", "32x32", "--spp", "4", "-o", "p.exr", "--ev100",
+                                 "auto", "--set", std::string("nodes.bulb.light.intensity_cd=") + intensity, "--set",
+                                 std::string("render.exposure=") + exposure});
+        EXPECT_EQ(ended.code, 0) << ended.error;
+        const auto picture = read_picture(folder() / "p.exr");
+        return picture && picture->has_ev100 ? picture->ev100 : NAN;
+    };
+    const char* spot = R"({"metering": "spot"})";
+    const float dim = ev100("400", spot);
+    EXPECT_NEAR(dim, std::log2(15.9f * 8), 0.05f);
+    EXPECT_NEAR(ev100("1600", spot) - dim, 2, 1e-3f) << "four times the light is two stops";
+    EXPECT_NEAR(ev100("400", R"({"metering": "spot", "compensation_ev": 1})"), dim - 1, 1e-3f);
+}
+
 }  // namespace
 }  // namespace heliodon::tests
