@@ -13,6 +13,7 @@
 #include "core/math.h"
 #include "core/result.h"
 #include "scene/camera.h"
+#include "scene/display_settings.h"
 #include "scene/geometry.h"
 #include "scene/handle.h"
 #include "scene/light.h"
@@ -185,7 +186,7 @@ struct RenderSettings {
     Rasterizer rasterizer = Rasterizer::automatic;
     Integrator integrator = Integrator::path;
     ConeTracingSettings vct;
-    std::string tonemap = "hable";
+    DisplaySettings display;
     int shadow_map_size = 0;  ///< texels an edge of a shadow map; 0: as the picture can tell, 2048 at most
 };
 

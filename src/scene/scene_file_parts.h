@@ -31,6 +31,8 @@ struct LightBlock {
 [[nodiscard]] std::variant<Shape, Mesh> read_shape(const JsonCursor& cursor);
 [[nodiscard]] ConvertSettings read_convert_settings(const JsonCursor& cursor);
 [[nodiscard]] RenderSettings read_render_settings(const JsonCursor& cursor);
+/// Of the render block: tonemap, exposure, white_balance.
+[[nodiscard]] DisplaySettings read_display(ObjectReader& render);
 /// Probe grids are checked and not kept: nothing bakes them yet.
 void check_probes(const JsonCursor& cursor);
 

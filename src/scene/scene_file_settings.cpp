@@ -245,8 +245,7 @@ RenderSettings read_render_settings(const JsonCursor& cursor) {
         settings.integrator = integrator->one_of<Integrator>(
             {{"path", Integrator::path}, {"bidirectional", Integrator::bidirectional}});
     if (const auto vct = object.find("vct")) settings.vct = read_cone_tracing(*vct);
-    if (const auto tonemap = object.find("tonemap"))
-        settings.tonemap = tonemap->one_of<std::string>({{"hable", "hable"}});
+    settings.display = read_display(object);
     object.read("shadow_map_size", settings.shadow_map_size, smallest_shadow_map, largest_shadow_map);
     object.finish();
     return settings;

@@ -22,11 +22,12 @@ SHADING_FN MeteringBin metering_bin(uint bin, float inner_weight, float outer_we
 }
 
 /// The reading by `pattern`, leaving out what lies below and above two percentiles (0 and 1: nothing). `arithmetic`: the
-/// mean of the luminance instead of its logarithm's.
+/// mean of the luminance instead of its logarithm's, which leaves out what has no light (the least bin): there is nothing.
 SHADING_FN Metering metering_read(uint pattern, bool arithmetic, float low_percentile, float high_percentile) {
     float inner_pixels = 0.0f;
     float outer_pixels = 0.0f;
-    for (uint bin = 0u; bin < metering_bins; ++bin) {
+    uint first = arithmetic ? 0u : 1u;
+    for (uint bin = first; bin < metering_bins; ++bin) {
         inner_pixels += float(metering_count(0u, bin));
         outer_pixels += float(metering_count(1u, bin));
     }
@@ -42,7 +43,7 @@ SHADING_FN Metering metering_read(uint pattern, bool arithmetic, float low_perce
     float counted = 0.0f;
     float sum = 0.0f;
     float sum_of_stops = 0.0f;
-    for (uint bin = 0u; bin < metering_bins; ++bin) {
+    for (uint bin = first; bin < metering_bins; ++bin) {
         MeteringBin read = metering_bin(bin, inner_weight, outer_weight);
         if (read.share == 0.0f) {
             continue;

@@ -61,6 +61,13 @@ TEST(Metering, PercentilesLeaveOutTheSunAndTheDark) {
     EXPECT_GT(metered(image, {.arithmetic_mean = true}), 19);
 }
 
+TEST(Metering, WhereThereIsNothingTheLogarithmsMeanSeesNothing) {
+    Image image = uniform(100);
+    fill(image, 0, 0, 32, 48, 0);
+    EXPECT_NEAR(metered(image), std::log2(800.0f), 0.002f);
+    EXPECT_NEAR(metered(image, {.arithmetic_mean = true}), std::log2(400.0f), 0.002f);
+}
+
 TEST(Metering, WhatIsNoNumberOrNegativeCountsAsDark) {
     Image image = uniform(NAN, 4, 4);
     EXPECT_NEAR(metered(image), darkness(), 0.01f);

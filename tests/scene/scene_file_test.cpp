@@ -328,6 +328,28 @@ TEST(SceneFile, AGridOfSensorsStandsInTheMiddlesOfItsCellsRowByRow) {
     EXPECT_EQ(points[8].origin(), glm::vec3(0, 1, -0.5f)) << "without an offset of its own";
 }
 
+TEST(SceneFile, ReadsHowLightIsShown) {
+    const auto display = [](const std::string& render) {
+        return parsed(R"({"heliodon": 1, "render": )" + render + "}").render_settings().display;
+    };
+    EXPECT_EQ(display("{}"), DisplaySettings{});
+    EXPECT_EQ(display(R"({"tonemap": "aces-narkowicz"})").tone.curve, ToneCurve::aces_narkowicz);
+    EXPECT_EQ(display(R"({"tonemap": {"curve": "reinhard", "white": 6}})").tone,
+              (ToneSettings{.curve = ToneCurve::reinhard, .white = 6}));
+    EXPECT_TRUE(display(R"({"tonemap": {"curve": "reinhard", "white": "auto"}})").tone.estimate_white);
+    const ExposureSettings exposure = display(R"({"exposure": {"mode": "auto", "metering": "spot", "mean": "arithmetic",
+        "percentiles": [10, 95], "compensation_ev": -1, "to_light_s": 1, "to_dark_s": 2}})").exposure;
+    EXPECT_EQ(exposure.mode, ExposureMode::metered);
+    EXPECT_EQ(exposure.pattern, MeteringPattern::spot);
+    EXPECT_TRUE(exposure.arithmetic_mean);
+    EXPECT_FLOAT_EQ(exposure.percentiles.x, 0.1f);
+    EXPECT_FLOAT_EQ(exposure.percentiles.y, 0.95f);
+    EXPECT_EQ(exposure.compensation_ev, -1);
+    EXPECT_EQ(exposure.to_dark_s, 2);
+    EXPECT_EQ(display(R"({"white_balance": {"chromaticity": [0.31, 0.33]}})").white_balance, glm::vec2(0.31f, 0.33f));
+    EXPECT_NEAR(display(R"({"white_balance": {"temperature_k": 6504}})").white_balance->x, 0.3127f, 1e-4f);
+}
+
 TEST(SceneFile, ReadsSensorsAndSettings) {
     const Scene scene = parsed(R"({"heliodon": 1,
         "sensors": [{"name": "desk", "type": "illuminance", "position": [0,0.8,0], "normal": [0,2,0]},
@@ -544,7 +566,7 @@ TEST(SceneOverride, ErrorsNameTheOverride) {
     const auto error = [](std::string path, std::string value) { return error_of(overridable, {{path, value}}); };
     EXPECT_EQ(error("render.voxel", "2"),
               "--set render.voxel=2: unknown key; expected gi, voxels, cascades, bounces, revoxelize, voxelizer, "
-              "rasterizer, integrator, vct, tonemap, shadow_map_size");
+              "rasterizer, integrator, vct, tonemap, exposure, white_balance, shadow_map_size");
     EXPECT_EQ(error("render.vct.cones", "10"), "--set render.vct.cones=10: expected a multiple of 9, found 10");
     EXPECT_EQ(error("rendr.voxels", "2").substr(0, 33), "--set rendr.voxels=2: unknown key");
     EXPECT_EQ(error("nodes.bulb.light.intensity_cd", "bright"),

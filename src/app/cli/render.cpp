@@ -8,9 +8,11 @@
 #include <optional>
 
 #include "app/cli/commands.h"
+#include "app/cli/display_options.h"
 #include "app/cli/gi_options.h"
 #include "app/cli/option_values.h"
 #include "app/cli/outputs.h"
+#include "app/cli/probe.h"
 #include "app/cli/scene_argument.h"
 #include "app/cli/terminal.h"
 #include "core/image_io.h"
@@ -39,7 +41,8 @@ struct RenderOptions {
     int threads = 0;
     bool no_environment = false;
     GiOptions gi;
-    std::optional<float> ev100;
+    DisplayOptions display;
+    std::vector<ProbedPixel> probes;
     std::vector<std::string> aovs;
     std::string stats;
     bool json = false;
@@ -75,7 +78,11 @@ public:
     virtual ~Renderer() = default;
     [[nodiscard]] virtual Result<Rendered> render(const Scene& scene, const Camera& camera,
                                                   const Progress& progress) = 0;
+    /// What lies under pixels of the picture that render() made last.
+    [[nodiscard]] virtual ProbeEngine probes(const Scene& scene) = 0;
 };
+
+const std::vector<std::string> probed_layers{"position", "normal"};
 
 class PathRenderer final : public Renderer {
 public:
@@ -125,7 +132,25 @@ public:
         return rendered;
     }
 
+    ProbeEngine probes(const Scene& scene) override {
+        PathOptions measuring;
+        measuring.max_depth = options_.max_depth;
+        measuring.environment = options_.environment;
+        measuring.seed = options_.seed;
+        measuring.samples_per_pixel = samples_a_sensor;
+        return {[&scene, this](const Camera& camera, int width, int height) {
+                    PathOptions one;
+                    one.width = width, one.height = height, one.samples_per_pixel = 1, one.max_depth = 1, one.aovs = probed_layers;
+                    return tracer_.render(scene, camera, one);
+                },
+                [measuring, this](const Scene& with_sensors) -> Result<std::vector<SensorReading>> {
+                    if (auto updated = tracer_.update(with_sensors); !updated) return tl::unexpected(updated.error());
+                    return tracer_.measure(with_sensors, measuring);
+                }};
+    }
+
 private:
+    static constexpr int samples_a_sensor = 4096;
     PathTracer tracer_;
     std::optional<Picture> resume_;
     std::optional<Integrator> integrator_;
@@ -166,6 +191,20 @@ public:
                          {"peak_rss_bytes", peak_rss_bytes()}},
                         std::move(summary),
                         interrupted()};
+    }
+
+    ProbeEngine probes(const Scene& scene) override {
+        return {[&scene, this](const Camera& camera, int width, int height) {
+                    RealtimeOptions one;
+                    one.width = width, one.height = height, one.samples = 1, one.aovs = probed_layers;
+                    return renderer_.render(scene, camera, one);
+                },
+                [this](const Scene& with_sensors) -> Result<std::vector<SensorReading>> {
+                    if (auto updated = renderer_.update(with_sensors); !updated) return tl::unexpected(updated.error());
+                    RealtimeOptions measuring = options_;
+                    measuring.aovs.clear();
+                    return renderer_.measure(with_sensors, measuring);
+                }};
     }
 
 private:
@@ -211,6 +250,12 @@ void check_together(const RenderOptions& options) {
     if (options.resume && !resumable_output(options))
         throw CLI::ValidationError("--resume", options.frames ? "expected one picture, found --frames"
                                                               : "expected an .exr output to go on from");
+    if (!options.probes.empty() && options.frames)
+        throw CLI::ValidationError("--probe", "expected one picture, found --frames");
+    for (const ProbedPixel pixel : options.probes)
+        if (pixel.x >= options.size.width || pixel.y >= options.size.height)
+            throw CLI::ValidationError("--probe", fmt::format("expected a pixel of {}x{}, found \"{},{}\"", options.size.width,
+                                                              options.size.height, pixel.x, pixel.y));
     if (options.engine == Engine::path && options.frames_timed > 0)
         throw CLI::ValidationError("--frames-timed", "expected with --engine realtime");
     if (options.engine == Engine::path && options.gi.given())
@@ -228,26 +273,34 @@ void check_aovs(const RenderOptions& options, const Scene& scene) {
                                                             "with --gi vct (or render.gi in the scene)", name));
 }
 
-Result<void> render_frame(Renderer& renderer, const Scene& scene, const RenderOptions& options, int frame,
+Result<void> render_frame(Renderer& renderer, Scene& scene, const RenderOptions& options, int frame, Exposure& exposure,
                           json& statistics) {
     auto camera = choose_camera(scene, options.scene, options.camera);
     if (!camera) return tl::unexpected(camera.error());
-    if (options.ev100) camera->ev100_override = options.ev100;
+    if (options.display.ev100) camera->ev100_override = options.display.ev100;
 
     ProgressBar bar(options.frames ? fmt::format("frame {}", frame) : "render");
     auto rendered = renderer.render(scene, *camera, bar.callback());
     if (!rendered) return interrupted() ? fail("", "interrupted") : tl::unexpected(rendered.error());
     const bool stopped = rendered->stopped;
     if (stopped && (options.engine == Engine::realtime || options.frames)) return fail("", "interrupted");
-    rendered->picture.ev100 = camera->ev100();
+    const DisplaySettings display = scene.render_settings().display;
+    rendered->picture.ev100 = exposure.ev100(rendered->picture.image, display.exposure, camera->ev100(), 1 / options.fps);
     rendered->picture.has_ev100 = true;
     for (const std::string& path : frame_outputs(options, frame))
-        if (auto written = write_rendered(path, rendered->picture); !written) return written;
+        if (auto written = write_rendered(path, rendered->picture, display, options.display); !written) return written;
     if (stopped) {
         const auto output = resumable_output(options);
         return fail("", fmt::format("interrupted after {} samples a pixel: {} the picture so far, {}", rendered->samples,
                                     options.outputs.size() == 1 ? options.outputs[0] + " is" : "the outputs are",
                                     output ? "and --resume goes on from " + *output : "which only an .exr can be gone on from"));
+    }
+    rendered->statistics["ev100"] = rendered->picture.ev100;
+    if (!options.probes.empty()) {
+        auto readings = probe(scene, *camera, rendered->picture, options.probes, renderer.probes(scene));
+        if (!readings) return tl::unexpected(readings.error());
+        rendered->summary += "\n" + as_text(*readings);
+        rendered->statistics["probes"] = as_json(*readings);
     }
     if (!options.frames) {
         say(rendered->summary);
@@ -273,14 +326,16 @@ Result<void> render(const RenderOptions& options) {
         apply_gi_options(options.gi, options.scene, *scene);
         warn_without_effect(options.gi, *scene);
     }
+    apply_display_options(options.display, *scene);
     check_aovs(options, *scene);
     auto renderer = create_renderer(options);
     if (!renderer) return tl::unexpected(renderer.error());
 
     json statistics = json::object();
+    Exposure exposure;
     for (int frame = range.first; frame <= range.last; ++frame) {
         if (options.frames) scene->apply_animations(frame / options.fps);
-        if (auto done = render_frame(**renderer, *scene, options, frame, statistics); !done) return done;
+        if (auto done = render_frame(**renderer, *scene, options, frame, exposure, statistics); !done) return done;
     }
     if (options.json)
         if (auto printed = print(statistics.dump(2) + "\n"); !printed) return printed;
@@ -341,10 +396,15 @@ void declare_picture_options(CLI::App& command, RenderOptions& options) {
     command.add_option_function<std::string>(
         "--size", [&](Text text) { options.size = read_size(text); }, "WIDTHxHEIGHT; default 1024x768");
     command.add_option("--camera", options.camera, "Name of the camera; default the first");
-    command.add_option_function<std::string>(
-        "--ev100", [&](Text text) { options.ev100 = read_ev100(text); }, "Exposure, instead of the camera's");
-    command.add_option_function<std::string>(
-        "--tonemap", [](Text text) { check_tonemap(text); }, "Tone curve: hable");
+    add_display_options(command, options.display);
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--probe",
+            [&](const std::vector<std::string>& pixels) {
+                for (Text pixel : pixels) options.probes.push_back(read_pixel(pixel));
+            },
+            "X,Y of a pixel: luminance, and illuminance of the surface there; may be repeated")
+        ->allow_extra_args(false);
     command.add_option_function<std::string>(
         "--aov", [&](Text text) { options.aovs = read_aovs(text); },
         "Extra EXR layers: albedo,normal,depth,position,direct,indirect; with --engine path: variance (of the pixel's mean "
