@@ -178,6 +178,11 @@ MaterialData pack_material(const Scene& scene, const Material& material) {
     data.clearcoat_roughness_texture = pack_texture(scene, material.clearcoat_roughness_texture);
     if (material.model == MaterialModel::thin) pack_thin(material, data);
     pack_extended(scene, material, data);
+    // The standard model that nothing mirrors, passes or coats is Lambert's, which is the faster to evaluate.
+    const bool extended = data.flags & shading::material_flag_extended;
+    if (material.model == MaterialModel::standard && !extended && data.specular <= 0 && data.metallic <= 0 && data.transmission <= 0 &&
+        data.clearcoat <= 0)
+        data.model = shading::material_model_lambert;
     return data;
 }
 
@@ -221,6 +226,7 @@ InstanceData pack_instance(const glm::mat4& world, std::uint32_t geometry, std::
     data.geometry = geometry;
     data.material = material;
     data.flags = visible && invertible ? shading::instance_flag_visible : 0u;
+    if (world == glm::mat4(1.0f)) data.flags |= shading::instance_flag_in_place;
     data.determinant_sign = determinant < 0.0f ? -1.0f : 1.0f;
     return data;
 }

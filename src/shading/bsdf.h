@@ -283,8 +283,14 @@ SHADING_FN BsdfSample bsdf_sample_prepared(SHADING_IN(Surface) s, SHADING_IN(Bsd
     if (wo.z <= 0.0f || s.model == material_model_unlit) {
         return result;
     }
-    float choice = u.z;
     vec2 v = vec2(u.x, u.y);
+    if (s.model == material_model_lambert) {
+        result.direction = sample_cosine_hemisphere(v);
+        result.pdf = cosine_hemisphere_pdf(result.direction.z);
+        result.weight = s.base_color;
+        return result;
+    }
+    float choice = u.z;
     vec3 wi = vec3(0.0f, 0.0f, 1.0f);
     float through = l.probability_diffuse + l.probability_through;
     float coat = through + l.probability_coat;

@@ -114,6 +114,9 @@ SHADING_FN float kernel_sphere_cone(SHADING_IN(KernelEmitter) emitter, vec3 from
     return one_minus_cos_from_sin2(emitter.area * emitter.area / dot(to_center, to_center));
 }
 
+SHADING_FN SphericalRectangle kernel_rectangle(SHADING_IN(KernelEmitter) emitter, vec3 from) {
+    return spherical_rectangle(emitter.origin - from, emitter.edge0, emitter.edge1, emitter.lengths, emitter.normal);
+}
 /// Rectangles that appear smaller are sampled by area, where single precision keeps more digits than the sum of
 /// the solid angle's four corners: their solid angle is as good as even over them.
 SHADING_FN bool kernel_sees_solid_angle(SphericalRectangle rectangle) {
@@ -131,7 +134,7 @@ SHADING_FN float kernel_surface_pdf(SHADING_IN(KernelEmitter) emitter, vec3 from
     }
     float area = emitter.area;
     if (emitter.kind == kernel_emitter_rectangle) {
-        const SphericalRectangle rectangle = spherical_rectangle(emitter.origin, emitter.edge0, emitter.edge1, from);
+        const SphericalRectangle rectangle = kernel_rectangle(emitter, from);
         if (kernel_sees_solid_angle(rectangle)) {
             return 1.0f / rectangle.solid_angle;
         }
@@ -193,7 +196,7 @@ SHADING_FN KernelHit kernel_point_on_emitter(SHADING_IN(KernelEmitter) emitter, 
         }
         return hit;
     }
-    normal = normalize(cross(emitter.edge0, emitter.edge1)) * emitter.orientation;
+    normal = emitter.normal;
     if (emitter.kind == kernel_emitter_disk) {
         hit.barycentric = sample_disk(u);
     } else if (emitter.kind == kernel_emitter_triangle) {
@@ -201,7 +204,7 @@ SHADING_FN KernelHit kernel_point_on_emitter(SHADING_IN(KernelEmitter) emitter, 
         hit.barycentric = vec2(weights.y, weights.z);
     }
     if (emitter.kind == kernel_emitter_rectangle) {
-        const SphericalRectangle rectangle = spherical_rectangle(emitter.origin, emitter.edge0, emitter.edge1, from);
+        const SphericalRectangle rectangle = kernel_rectangle(emitter, from);
         if (kernel_sees_solid_angle(rectangle)) {
             hit.barycentric = sample_spherical_rectangle(rectangle, u);
             pdf = 1.0f / rectangle.solid_angle;

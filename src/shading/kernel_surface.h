@@ -26,8 +26,9 @@ SHADING_FN vec3 kernel_transform_normal(mat4 normal_to_world, vec3 n) {
 SHADING_FN vec3 kernel_transform_vector(mat4 m, vec3 v) { return vec3(m[0]) * v.x + vec3(m[1]) * v.y + vec3(m[2]) * v.z; }
 SHADING_FN vec3 kernel_transform_point(mat4 m, vec3 v) { return kernel_transform_vector(m, v) + vec3(m[3]); }
 
-SHADING_FN KernelPoint kernel_triangle_point(SHADING_IN(KernelHit) hit, SHADING_IN(InstanceData) instance, SHADING_IN(KernelGeometry) geometry) {
-    KernelPoint point;
+SHADING_FN void kernel_triangle_point(SHADING_IN(KernelHit) hit, SHADING_IN(InstanceData) instance, SHADING_IN(KernelGeometry) geometry,
+                                      SHADING_INOUT(KernelPoint) point) {
+    const bool in_place = (instance.flags & instance_flag_in_place) != 0u;
     const uvec3 index = fetch_triangle(instance.geometry, hit.primitive);
     const vec3 p0 = fetch_position(instance.geometry, index.x);
     const vec3 p1 = fetch_position(instance.geometry, index.y);
@@ -35,16 +36,24 @@ SHADING_FN KernelPoint kernel_triangle_point(SHADING_IN(KernelHit) hit, SHADING_
     const float b1 = hit.barycentric.x;
     const float b2 = hit.barycentric.y;
     const float b0 = 1.0f - b1 - b2;
-    point.position = kernel_transform_point(instance.object_to_world, p0 * b0 + p1 * b1 + p2 * b2);
-    point.error = kernel_position_error(instance.object_to_world, max(abs(p0), max(abs(p1), abs(p2))));
-    point.geometric_normal = normalize(cross(kernel_transform_vector(instance.object_to_world, p1 - p0),
-                                             kernel_transform_vector(instance.object_to_world, p2 - p0))) *
-                             instance.determinant_sign;
+    const vec3 extent = max(abs(p0), max(abs(p1), abs(p2)));
+    vec3 edge1 = p1 - p0;
+    vec3 edge2 = p2 - p0;
+    point.position = p0 * b0 + p1 * b1 + p2 * b2;
+    if (in_place) {
+        point.error = kernel_error_bound(extent);
+    } else {
+        point.position = kernel_transform_point(instance.object_to_world, point.position);
+        point.error = kernel_position_error(instance.object_to_world, extent);
+        edge1 = kernel_transform_vector(instance.object_to_world, edge1);
+        edge2 = kernel_transform_vector(instance.object_to_world, edge2) * instance.determinant_sign;
+    }
+    point.geometric_normal = normalize(cross(edge1, edge2));
     point.normal = point.geometric_normal;
     if ((geometry.attributes & kernel_has_normals) != 0u) {
         const vec3 n = fetch_normal(instance.geometry, index.x) * b0 + fetch_normal(instance.geometry, index.y) * b1 +
                        fetch_normal(instance.geometry, index.z) * b2;
-        const vec3 world = kernel_transform_vector(instance.normal_to_world, n);
+        const vec3 world = in_place ? n : kernel_transform_vector(instance.normal_to_world, n);
         const float squared = dot(world, world);
         if (squared > 0.0f) {
             point.normal = world * inversesqrt(squared);
@@ -72,12 +81,11 @@ SHADING_FN KernelPoint kernel_triangle_point(SHADING_IN(KernelHit) hit, SHADING_
         point.color = fetch_color(instance.geometry, index.x) * b0 + fetch_color(instance.geometry, index.y) * b1 +
                       fetch_color(instance.geometry, index.z) * b2;
     }
-    return point;
 }
 
 /// Texture coordinates and tangents as scene/geometry.h defines them for disks and spheres.
-SHADING_FN KernelPoint kernel_shape_point(SHADING_IN(KernelHit) hit, SHADING_IN(InstanceData) instance, SHADING_IN(KernelGeometry) geometry) {
-    KernelPoint point;
+SHADING_FN void kernel_shape_point(SHADING_IN(KernelHit) hit, SHADING_IN(InstanceData) instance, SHADING_IN(KernelGeometry) geometry,
+                                   SHADING_INOUT(KernelPoint) point) {
     vec3 normal;
     vec3 position;
     vec3 tangent;
@@ -104,7 +112,6 @@ SHADING_FN KernelPoint kernel_shape_point(SHADING_IN(KernelHit) hit, SHADING_IN(
     point.normal = point.geometric_normal;
     point.tangent = vec4(kernel_transform_vector(instance.object_to_world, tangent), instance.determinant_sign);
     point.color = vec4(1.0f);
-    return point;
 }
 
 /// Derivatives of the world position by texture coordinate set `texcoord`, for bump maps; zero where the
@@ -138,9 +145,9 @@ SHADING_FN KernelPoint kernel_point(SHADING_IN(KernelHit) hit) {
     SHADING_IN(KernelGeometry) geometry = fetch_geometry(instance.geometry);
     KernelPoint point;
     if (geometry.shape == kernel_shape_disk || geometry.shape == kernel_shape_sphere) {
-        point = kernel_shape_point(hit, instance, geometry);
+        kernel_shape_point(hit, instance, geometry, point);
     } else {
-        point = kernel_triangle_point(hit, instance, geometry);
+        kernel_triangle_point(hit, instance, geometry, point);
     }
     point.instance = hit.instance;
     point.primitive = hit.primitive;

@@ -38,12 +38,13 @@ SHADING_FN uint kernel_pascal(uint x) {
 /// As kernel_sample_pair, for the pixel at the place of its tile given bit-reversed; `seed` is the tile's.
 SHADING_FN vec2 kernel_tile_pair(uint index_reversed, uint place_reversed, uint seed) {
     // Each pair of dimensions has the squares within squares in an order of its own.
-    const uint place = kernel_reverse_bits(kernel_owen_reversed(place_reversed, kernel_hash(seed ^ 0x51633e2du)));
-    const uint shuffled = kernel_reverse_bits(kernel_owen_reversed(index_reversed, kernel_hash(seed)));
+    const uvec2 both = kernel_reverse_both(kernel_owen_reversed(place_reversed, kernel_hash(seed ^ 0x51633e2du)),
+                                           kernel_owen_reversed(index_reversed, kernel_hash(seed)));
+    const uint place = both.x;
+    const uint shuffled = both.y;
     const uint x = shuffled ^ kernel_pascal(place);
     const uint y = kernel_sobol_second_reversed(shuffled) ^ kernel_pascal(place ^ (place >> 2u) ^ (place >> 3u) ^ (place >> 5u));
-    return vec2(kernel_unit_float(kernel_reverse_bits(kernel_owen_reversed(x, kernel_hash(seed ^ 0x68bc21ebu)))),
-                kernel_unit_float(kernel_reverse_bits(kernel_owen_reversed(y, kernel_hash(seed ^ 0x02e5be93u)))));
+    return kernel_unit_pair(kernel_owen_reversed(x, kernel_hash(seed ^ 0x68bc21ebu)), kernel_owen_reversed(y, kernel_hash(seed ^ 0x02e5be93u)));
 }
 
 SHADING_END

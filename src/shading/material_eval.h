@@ -52,7 +52,7 @@ SHADING_FN MaterialTexels material_texels_default() {
 }
 
 /// Coverage in [0, 1]: `alpha` is the base colour texel's times the vertex colour's.
-SHADING_FN float material_opacity(MaterialData m, float alpha) {
+SHADING_FN float material_opacity(SHADING_IN(MaterialData) m, float alpha) {
     float opacity = m.opacity * alpha;
     if ((m.flags & material_flag_alpha_mask) != 0u) {
         return opacity >= m.alpha_cutoff ? 1.0f : 0.0f;
@@ -92,6 +92,13 @@ SHADING_FN MaterialPoint material_combine(SHADING_IN(MaterialData) m, SHADING_IN
     MaterialPoint p;
     p.surface = surface_default();
     p.surface.base_color = m.base_color * vec3(t.base_color) * vec3(vertex_color);
+    p.emission = m.emission_nits * t.emission;
+    p.opacity = material_opacity(m, t.base_color.w * vertex_color.w);
+    p.occlusion = 1.0f + m.occlusion_strength * (t.occlusion - 1.0f);
+    if (m.model == material_model_lambert) {
+        p.surface.model = m.model;
+        return p;
+    }
     p.surface.metallic = clamp(m.metallic * t.orm.z, 0.0f, 1.0f);
     p.surface.specular_color = m.specular_color * t.specular_color;
     p.surface.specular = clamp(m.specular * t.specular, 0.0f, 1.0f);
@@ -110,12 +117,9 @@ SHADING_FN MaterialPoint material_combine(SHADING_IN(MaterialData) m, SHADING_IN
         combine_extended(m, t, p.surface);
         p.surface.inside = p.surface.inside && !p.surface.thin_walled;
     }
-    p.emission = m.emission_nits * t.emission;
     if (m.model == material_model_unlit) {
         p.emission = p.emission * p.surface.base_color;
     }
-    p.opacity = material_opacity(m, t.base_color.w * vertex_color.w);
-    p.occlusion = 1.0f + m.occlusion_strength * (t.occlusion - 1.0f);
     return p;
 }
 

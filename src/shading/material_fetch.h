@@ -7,12 +7,12 @@
 //                                                    level of detail is the includer's own state
 //   vec2 scene_texture_size(uint texture_index)      texels of level 0
 
-SHADING_FN vec2 texture_uv(TextureRef ref, vec2 uv0, vec2 uv1) {
+SHADING_FN vec2 texture_uv(SHADING_IN(TextureRef) ref, vec2 uv0, vec2 uv1) {
     vec2 uv = ref.texcoord == 0u ? uv0 : uv1;
     return vec2(ref.uv_matrix.x * uv.x + ref.uv_matrix.z * uv.y, ref.uv_matrix.y * uv.x + ref.uv_matrix.w * uv.y) +
            ref.uv_offset;
 }
-SHADING_FN vec4 fetch_or_one(TextureRef ref, vec2 uv0, vec2 uv1) {
+SHADING_FN vec4 fetch_or_one(SHADING_IN(TextureRef) ref, vec2 uv0, vec2 uv1) {
     if (ref.texture_index == no_texture) {
         return vec4(1.0f);
     }
@@ -31,9 +31,12 @@ SHADING_FN float material_opacity_at(SHADING_IN(MaterialData) m, vec2 uv0, vec2 
 SHADING_FN MaterialPoint material_at(SHADING_IN(MaterialData) m, vec2 uv0, vec2 uv1, vec4 vertex_color, bool inside) {
     MaterialTexels t = material_texels_default();
     t.base_color = fetch_or_one(m.base_color_texture, uv0, uv1);
-    t.orm = vec3(fetch_or_one(m.orm_texture, uv0, uv1));
     t.occlusion = fetch_or_one(m.occlusion_texture, uv0, uv1).x;
     t.emission = vec3(fetch_or_one(m.emission_texture, uv0, uv1));
+    if (m.model == material_model_lambert) {
+        return material_combine(m, t, vertex_color, inside);
+    }
+    t.orm = vec3(fetch_or_one(m.orm_texture, uv0, uv1));
     t.transmission = fetch_or_one(m.transmission_texture, uv0, uv1).x;
     t.specular = fetch_or_one(m.specular_texture, uv0, uv1).w;
     t.specular_color = vec3(fetch_or_one(m.specular_color_texture, uv0, uv1));

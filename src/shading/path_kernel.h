@@ -216,7 +216,11 @@ SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec
         return;
     }
     const BsdfLobes lobes = bsdf_prepare(surface, wo);
-    const vec2 choices = path_random_pair(path, event, 1u);
+    // Which emitter, and which lobe: where there is one of each, nothing is to be chosen.
+    vec2 choices = vec2(0.0f);
+    if (kernel_frame().emitter_count > 1u || surface.model != material_model_lambert) {
+        choices = path_random_pair(path, event, 1u);
+    }
     if (kernel_frame().emitter_count > 0u) {
         kernel_sample_direct(path, position, error, geometric, normal, frame, surface, lobes, wo, choices.x,
                              path_random_pair(path, event, 2u));
@@ -361,7 +365,8 @@ SHADING_FN void kernel_take_surface_hit(SHADING_INOUT(PathState) path, SHADING_I
     }
     const vec3 wo = -path.direction;
     const vec3 geometric = front ? point.geometric_normal : -point.geometric_normal;
-    const vec3 normal = usable_shading_normal(kernel_mapped_normal(hit, point, material), geometric, wo);
+    const vec3 mapped = kernel_mapped_normal(hit, point, material);
+    const vec3 normal = mapped == point.geometric_normal ? geometric : usable_shading_normal(mapped, geometric, wo);
     kernel_scatter(path, point.position, point.error, geometric, normal, at.surface, wo);
 }
 

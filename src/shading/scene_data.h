@@ -136,6 +136,7 @@ struct InstanceData {
     float determinant_sign;  // −1 where the transform mirrors
 };
 SHADING_CONST uint instance_flag_visible = 1u;
+SHADING_CONST uint instance_flag_in_place = 2u;  // object_to_world changes nothing
 
 SHADING_CONST uint sky_model_none = 0u;
 SHADING_CONST uint sky_model_constant = 1u;

@@ -7,11 +7,8 @@ SHADING_BEGIN
 
 /// The rectangle in a frame at the viewpoint whose z looks away from its plane (section 3 of the paper).
 struct SphericalRectangle {
-    vec3 x;
     float x0;
-    vec3 y;
     float y0;
-    vec3 z;
     float z0;  // ≤ 0
     float x1;
     float y1;
@@ -28,24 +25,14 @@ SHADING_FN float turn_of(vec2 number) {
 }
 SHADING_FN vec2 complex_product(vec2 a, vec2 b) { return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x); }
 
-/// Seen from `from`: the corner `origin` and two perpendicular edges.
-SHADING_FN SphericalRectangle spherical_rectangle(vec3 origin, vec3 edge0, vec3 edge1, vec3 from) {
+/// Seen from where `to_origin` leads to a corner: two perpendicular edges, their lengths and the normal on either side.
+SHADING_FN SphericalRectangle spherical_rectangle(vec3 to_origin, vec3 edge0, vec3 edge1, vec2 lengths, vec3 normal) {
     SphericalRectangle r;
-    const float length0 = length(edge0);
-    const float length1 = length(edge1);
-    r.x = edge0 / length0;
-    r.y = edge1 / length1;
-    r.z = cross(r.x, r.y);
-    const vec3 d = origin - from;
-    r.z0 = dot(d, r.z);
-    if (r.z0 > 0.0f) {
-        r.z = -r.z;
-        r.z0 = -r.z0;
-    }
-    r.x0 = dot(d, r.x);
-    r.y0 = dot(d, r.y);
-    r.x1 = r.x0 + length0;
-    r.y1 = r.y0 + length1;
+    r.x0 = dot(to_origin, edge0) / lengths.x;
+    r.y0 = dot(to_origin, edge1) / lengths.y;
+    r.z0 = -abs(dot(to_origin, normal));
+    r.x1 = r.x0 + lengths.x;
+    r.y1 = r.y0 + lengths.y;
     // The planes through the viewpoint and each edge meet at a corner (x, y) under the argument of ±xy + i |z0| √(x² + y² + z0²),
     // from the cross and dot products of their normals; arguments add where complex numbers multiply.
     const float z2 = r.z0 * r.z0;

@@ -29,6 +29,9 @@ struct Draft {
     void add(const KernelEmitter& emitter, double lumen) {
         emitters.push_back(emitter);
         emitters.back().light_node = kernel_no_emitter;
+        emitters.back().lengths = {glm::length(emitter.edge0), glm::length(emitter.edge1)};
+        const glm::vec3 normal = glm::cross(emitter.edge0, emitter.edge1) * emitter.orientation;
+        if (normal != glm::vec3(0)) emitters.back().normal = glm::normalize(normal);
         flux.push_back(std::isfinite(lumen) ? std::max(lumen, 0.0) : 0.0);
     }
 };
