@@ -225,8 +225,8 @@ InstanceData pack_instance(const glm::mat4& world, std::uint32_t geometry, std::
     data.normal_to_world = invertible ? glm::mat4(glm::transpose(glm::inverse(linear))) : glm::mat4(1.0f);
     data.geometry = geometry;
     data.material = material;
-    data.flags = visible && invertible ? shading::instance_flag_visible : 0u;
-    if (world == glm::mat4(1.0f)) data.flags |= shading::instance_flag_in_place;
+    if (visible && invertible) data.flags = shading::instance_flag_visible;
+    if (visible && world == glm::mat4(1.0f)) data.flags |= shading::instance_flag_in_place;
     data.determinant_sign = determinant < 0.0f ? -1.0f : 1.0f;
     return data;
 }
