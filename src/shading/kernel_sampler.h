@@ -39,7 +39,7 @@ SHADING_FN uvec2 kernel_reverse_both(uint x, uint y) {
 }
 #else
 uint kernel_reverse_bits(uint x) { return bitfieldReverse(x); }
-uvec2 kernel_reverse_both(uint x, uint y) { return bitfieldReverse(uvec2(x, y)); }
+uvec2 kernel_reverse_both(uint x, uint y) { return uvec2(bitfieldReverse(x), bitfieldReverse(y)); }
 #endif
 
 /// Owen scrambling of bit-reversed values: each bit is flipped by a hash of the bits below it

@@ -72,9 +72,9 @@ struct KernelEmitter {
     float cumulative;   // sum of the probabilities up to and including this one
     float area;         // m²; sphere: its world radius in metres if it stays a sphere there, else 0
     float orientation;  // −1 where the instance mirrors: the front is orientation · edge0 × edge1
+    vec3 normal;        // unit, on the front side; sphere: unused
     uint light_node;    // its leaf in the light tree, or kernel_no_emitter: `probability` is all
     vec2 lengths;       // m, of the edges
-    vec3 normal;        // unit, on the front side; sphere: unused
 };
 
 /// A node of the tree over the emitters that stand somewhere: node 0 is the root, the children of each stand side by
