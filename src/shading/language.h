@@ -14,6 +14,7 @@
 
 #ifdef __cplusplus
 
+#include <cmath>
 #include <cstdint>
 
 #include "core/math.h"
@@ -41,6 +42,10 @@ using glm::mat3;
 using glm::mat4;
 using uint = std::uint32_t;
 using glm::abs;
+// Not templates, and so preferred: GLM's compares where clearing a bit will do.
+inline float abs(float x) { return std::fabs(x); }
+inline vec2 abs(const vec2& v) { return {std::fabs(v.x), std::fabs(v.y)}; }
+inline vec3 abs(const vec3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 using glm::acos;
 using glm::asin;
 using glm::atan;

@@ -37,20 +37,20 @@ SHADING_FN vec3 to_local(Frame frame, vec3 v) {
     return vec3(dot(v, frame.tangent), dot(v, frame.bitangent), dot(v, frame.normal));
 }
 
-/// atan(y, x) to 3·10⁻⁷ rad, without the library's call: the quotient of the smaller by the larger is brought within
-/// ±tan(π/8), where Moshier's (Cephes, atanf) polynomial stands for the arctangent.
+/// atan(y, x) to 3·10⁻⁷ rad, without the library's call and without branches: the quotient of the smaller by the larger is
+/// brought within ±tan(π/8), where Moshier's (Cephes, atanf) polynomial stands for the arctangent.
 SHADING_FN float angle_of(float y, float x) {
     const float ax = abs(x);
     const float ay = abs(y);
+    const float smaller = min(ax, ay);
     const float larger = max(max(ax, ay), 1.0e-37f);
-    const float q = min(ax, ay) / larger;
-    const bool beyond = q > 0.41421356f;
-    const float t = beyond ? (q - 1.0f) / (q + 1.0f) : q;
+    const float beyond = smaller > 0.41421356f * larger ? 1.0f : 0.0f;
+    const float t = (smaller - beyond * larger) / (larger + beyond * smaller);
     const float z = t * t;
     float angle = (((8.05374449538e-2f * z - 1.38776856032e-1f) * z + 1.99777106478e-1f) * z - 3.33329491539e-1f) * z * t + t;
-    angle = beyond ? angle + 0.25f * pi : angle;
-    angle = ay > ax ? 0.5f * pi - angle : angle;
-    angle = x < 0.0f ? pi - angle : angle;
+    angle += beyond * (0.25f * pi);
+    angle = abs((ay > ax ? 0.5f * pi : 0.0f) - angle);  // mirrored at the diagonal
+    angle = abs((x < 0.0f ? pi : 0.0f) - angle);        // and at the y axis
     return y < 0.0f ? -angle : angle;
 }
 
@@ -65,14 +65,11 @@ SHADING_FN vec2 cos_sin_of_octant(float angle) {
 SHADING_FN vec2 sample_disk(vec2 u) {
     float x = 2.0f * u.x - 1.0f;
     float y = 2.0f * u.y - 1.0f;
-    if (x == 0.0f && y == 0.0f) {
-        return vec2(0.0f);
-    }
-    if (abs(x) > abs(y)) {
-        return x * cos_sin_of_octant(0.25f * pi * (y / x));
-    }
-    const vec2 across = cos_sin_of_octant(0.25f * pi * (x / y));
-    return vec2(y * across.y, y * across.x);
+    const bool wide = abs(x) > abs(y);
+    const float radius = wide ? x : y;
+    const float ratio = (wide ? y : x) / (radius != 0.0f ? radius : 1.0f);
+    const vec2 along = cos_sin_of_octant(0.25f * pi * ratio) * radius;
+    return vec2(wide ? along.x : along.y, wide ? along.y : along.x);
 }
 
 /// Density cos θ/π about +z (Malley's method: the disk projected up).
