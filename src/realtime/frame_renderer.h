@@ -13,9 +13,11 @@
 #include "gpu/timestamps.h"
 #include "graph/executor.h"
 #include "passes/compute_raster/compute_raster.h"
+#include "passes/meter/meter.h"
 #include "passes/sensors/sensors.h"
 #include "passes/shade/shade.h"
 #include "passes/shadow/shadow.h"
+#include "passes/tonemap/tonemap_shared.h"
 #include "realtime/gpu_scene.h"
 #include "realtime/renderer.h"
 #include "realtime/shadow_plan.h"
@@ -37,7 +39,10 @@ struct FrameSample {
     std::uint32_t aov = shading::frame_aov_none;
     std::uint32_t seed = 0;
     bool replace = true;             ///< the accumulated sum starts anew
-    float display_scale = 1.0f;      ///< live: exposure / samples in the sum
+    struct Display {
+        float sample_scale = 1;      ///< 1 / samples in the sum
+        float seconds = 0;           ///< since the frame before, for the exposure to adapt
+    } display;                       ///< live
     float texture_gradient_scale = 1.0f;
 };
 
@@ -106,9 +111,9 @@ private:
     /// What the graphs depend on; they are rebuilt when it changes.
     struct GraphKey {
         int width = 0, height = 0;
-        bool display = false, blended = false;
+        bool display = false, metered = false, blended = false;
         passes::SceneFeatures features;
-        bool aov = false, cone_traced = false, cone_shadows = false;
+        bool aov = false, cone_traced = false, cone_shadows = false, shadows_traced = false;
         std::uint32_t cone_spacing = 1;  // pixels
         bool computed_visibility = false, computed_shadows = false, tests_opacity = false;  // rasterized by compute
         std::uint32_t instance_capacity = 0, shadow_layers = 0, shadow_views = 0;
@@ -167,6 +172,8 @@ private:
     /// Whether anything but lights brings light.
     [[nodiscard]] bool emission_or_sky() const;
     void surfaces_voxelized();
+    /// How the live picture is exposed and toned, by the scene's settings.
+    void set_display(const Camera& camera, const FrameSample::Display& display);
     [[nodiscard]] Result<void> submit(gpu::Commands commands, PassTimes* times);
     [[nodiscard]] Result<void> make_images();
     /// Sets which of the wanted pictures compute rasterizes, and keeps what it reads up to date.
@@ -199,7 +206,7 @@ private:
     bool voxelize_ = false, relight_ = false;  // due in this frame
     std::uint64_t voxelized_texture_ = 0;
     std::uint64_t voxelized_surfaces_ = ~0ull, voxelized_placement_ = ~0ull;  // GpuScene's and VoxelVolume's revisions
-    int bounce_frames_ = 0, gather_axis_ = 0;  // since the volume last changed; of the last frame
+    int bounce_frames_ = 0, gather_side_ = 0;  // since the volume last changed; of the last frame
 
     ShadowPlan plan_;
     std::optional<ShadowDetail> shadow_detail_;  // that it is made for
@@ -226,7 +233,8 @@ private:
     std::uint64_t raster_revision_ = ~0ull;  // of the scene whose triangles are listed
     std::uint32_t camera_view_count_ = 1;
     bool replace_sum_ = true;
-    float display_scale_ = 1.0f;
+    passes::ExposureInputs exposure_;
+    shading::TonemapConstants tonemap_{};
     std::uint32_t draw_calls_ = 0;
 
     gpu::Buffer frame_buffer_, camera_view_, shadow_cull_views_, shadow_views_, shading_tables_, fragments_;

@@ -17,9 +17,9 @@ constexpr double converged_change = 1.0 / 2048;
 // Ends what cannot converge: surfaces that reflect everything, in a closed room.
 constexpr int most_bounces = 64;
 
-// Live, each frame gathers for the faces across one axis, in turn. Light has converged after so many turns of three
-// frames: nine tenths reflected come to a thousandth.
-constexpr int turn_frames = 3;
+// Live, each frame gathers for the faces to one side, in turn. Light has converged after so many turns of six frames: nine
+// tenths reflected come to a thousandth.
+constexpr int turn_frames = static_cast<int>(shading::voxel_faces);
 constexpr int converging_bounces = 64;
 constexpr int most_live_frames = turn_frames * (converging_bounces + 64);
 const std::optional<VoxelVolume::Gather> nothing, gather_once = VoxelVolume::Gather{};
@@ -120,7 +120,7 @@ Result<void> FrameRenderer::record_volume_bounces(gpu::Commands& commands) {
         // All bounces: each turn adds one to what the volume holds.
         if (bounce_frames_ >= most_live_frames) return {};
         VoxelVolume::Gather gather = next_gather(bounce_frames_++ / turn_frames, converging_bounces);
-        gather.axis = gather_axis_ = (gather_axis_ + 1) % turn_frames;
+        gather.side = gather_side_ = (gather_side_ + 1) % turn_frames;
         return voxels_.record_bounce(commands, &timestamps_, gather);
     }
     if (!relight_) return {};

@@ -390,7 +390,7 @@ Result<void> VoxelVolume::record_bounce(gpu::Commands& commands, gpu::Timestamps
     }
     for (auto& cascade : cascades_) {
         const std::uint32_t every_face = (1u << shading::voxel_faces) - 1;
-        cascade->gather_faces.all = gather->axis ? 3u << 2 * *gather->axis : every_face;
+        cascade->gather_faces.all = gather->side ? 1u << *gather->side : every_face;
         cascade->gather_faces.unlit = cascade->gathered_known ? 0 : every_face & ~cascade->gather_faces.all;
         cascade->gathered_known = true;
         cascade->constants.gather_shift = gather->shift;

@@ -49,7 +49,7 @@ public:
     struct Gather {
         glm::vec2 shift{0};   ///< of diffuse_cone()
         float weight = 1.0f;  ///< against what was gathered before
-        std::optional<int> axis;  ///< by the faces across it alone and those that have not gathered yet
+        std::optional<int> side;  ///< of the six, by its faces alone and those that have not gathered yet
     };
     [[nodiscard]] Result<void> record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps,
                                              const std::optional<Gather>& gather);

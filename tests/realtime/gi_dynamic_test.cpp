@@ -122,7 +122,7 @@ TEST_F(GiDynamic, RevoxelizeAlwaysGivesTheSamePictureAndVoxelizesEverythingEachF
 }
 
 TEST_F(GiDynamic, WhatIsVoxelizedAnewKeepsTheLightThatItGathered) {
-    // Each frame gathers for the faces across one axis: were the others' light lost, or gathered anew, frames would differ.
+    // Each frame gathers for the faces to one side: were the others' light lost, or gathered anew, frames would differ.
     Renderer once = new_renderer(), always = new_renderer();
     for (int step = 0; step < 5; ++step) {
         change_settings(scene, [](RenderSettings& s) { s.bounces = 0, s.revoxelize = Revoxelize::once; });
@@ -184,18 +184,18 @@ TEST_F(GiDynamic, AMovingBoxBesideAFineMeshCostsAFractionOfVoxelizingAll) {
 
 TEST_F(GiDynamic, LightOfAllBouncesComesWithinAPercentInAFewFrames) {
     change_settings(scene, [](RenderSettings& settings) { settings.bounces = 0; });
-    constexpr int rest = 60;
+    constexpr int rest = 100;
     struct Change {
         const char* name;
         int stated;  // frames
         std::function<void()> change;
     };
-    // Faces that are new gather in the next frame, of the others a third in each. Where little light is left, more of what
+    // Faces that are new gather in the next frame, of the others those to one of six sides in each. Where little light is left, more of what
     // was there before has to be gone.
     const std::vector<Change> changes{
-        {"a crate and a light move", 12, [&] { place(3); }},
-        {"a light moves", 12, [&] { scene.set_transform(light, {.translation = {0.3f, 0.9f, -0.1f}}); }},
-        {"all lights but a dim lamp go out", 40, [&] { scene.set_visible(light, false); }}};
+        {"a crate and a light move", 18, [&] { place(3); }},
+        {"a light moves", 18, [&] { scene.set_transform(light, {.translation = {0.3f, 0.9f, -0.1f}}); }},
+        {"all lights but a dim lamp go out", 66, [&] { scene.set_visible(light, false); }}};
     Renderer live = new_renderer();
     for (int i = 0; i < rest; ++i) frame(live, scene, camera, 8);
     for (const auto& [name, stated, change] : changes) {

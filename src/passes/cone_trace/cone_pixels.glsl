@@ -13,10 +13,8 @@ layout(set = 0, binding = 18) uniform usampler2D surface_albedos;
 layout(set = 0, binding = 19) uniform usampler2D surface_lobes;
 float shading_table(uint index) { return shading_tables[index]; }
 
-ConeSurface surface_at(ivec2 pixel) {
-    return unpack_surface(PackedSurface(texelFetch(surface_places, pixel, 0), texelFetch(surface_albedos, pixel, 0),
-                                        texelFetch(surface_lobes, pixel, 0).x));
-}
+ConePlace place_at(ivec2 pixel) { return unpack_place(texelFetch(surface_places, pixel, 0)); }
+ConeLobes lobes_at(ivec2 pixel) { return unpack_lobes(texelFetch(surface_albedos, pixel, 0), texelFetch(surface_lobes, pixel, 0).x); }
 /// Of length 1 along the view.
 vec3 view_ray(ivec2 pixel) {
     const vec2 at = vec2(pixel) + 0.5f + frame.jitter;

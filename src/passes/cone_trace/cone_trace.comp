@@ -9,8 +9,10 @@ layout(constant_id = 0) const bool draws_aov = false;
 layout(set = 0, binding = 13, rgba32f) uniform image2D picture;
 layout(set = 0, binding = 14) uniform sampler2D traced_diffuse;  // of trace_pixels.comp
 layout(set = 0, binding = 15) uniform sampler2D traced_specular;
-layout(set = 0, binding = 16) uniform usampler2D weights;     // of weigh_pixels.comp
-layout(set = 0, binding = 17) uniform sampler2D transmitted;  // of trace_refracted.comp
+layout(set = 0, binding = 16) uniform usampler2D weights;       // of weigh_pixels.comp
+layout(set = 0, binding = 27) uniform sampler2D own_diffuse;    // of trace_diffuse.comp
+layout(set = 0, binding = 28) uniform sampler2D own_specular;   // of trace_specular.comp
+layout(set = 0, binding = 17) uniform sampler2D transmitted;    // of trace_refracted.comp
 
 /// The volume as a pixel's own cone sees it.
 vec4 volume_seen(vec3 direction) {
@@ -34,20 +36,22 @@ void main() {
         imageStore(picture, pixel, volume_seen(view_ray(pixel)));
         return;
     }
-    const ConeSurface surface = surface_at(pixel);
+    const ConePlace surface = place_at(pixel);
     if (surface.depth_m == 0.0f) return;
+    const ConeLobes albedo = lobes_at(pixel);
     const AboutPixel about = about_pixel(pixel, frame.sample_index, size);
     const uvec2 packed_weights = texelFetch(weights, pixel, 0).xy;
     vec3 light = vec3(0.0f);
-    // Openness is 1 where no diffuse cones stand for anything, and none yet where the pixel has cones of its own.
-    float openness = surface.albedo.diffuse == vec3(0.0f) ? 1.0f : 0.0f;
-    if (packed_weights.x != 0u) {
-        const vec4 diffuse = weighed(traced_diffuse, about, unpackUnorm4x8(packed_weights.x));
-        light += surface.albedo.diffuse * diffuse.rgb;
+    float openness = 1.0f;  // where no diffuse cones stand for anything
+    if (surface.rough) {
+        const vec4 diffuse = packed_weights.x != 0u ? weighed(traced_diffuse, about, unpackUnorm4x8(packed_weights.x))
+                                                    : texelFetch(own_diffuse, pixel, 0);
+        light += albedo.diffuse * diffuse.rgb;
         openness = diffuse.a;
     }
-    if (packed_weights.y != 0u) light += surface.albedo.specular * weighed(traced_specular, about, unpackUnorm4x8(packed_weights.y)).rgb;
-    if (surface.albedo.refraction != vec3(0.0f)) light += surface.albedo.refraction * texelFetch(transmitted, pixel, 0).rgb;
+    if (packed_weights.y != 0u) light += albedo.specular * weighed(traced_specular, about, unpackUnorm4x8(packed_weights.y)).rgb;
+    if (surface.coated || (surface.glossy && packed_weights.y == 0u)) light += texelFetch(own_specular, pixel, 0).rgb;
+    if (surface.transmissive) light += albedo.refraction * texelFetch(transmitted, pixel, 0).rgb;
     vec4 value = imageLoad(picture, pixel);
     value.rgb += draws_aov && frame.aov == frame_aov_occlusion ? vec3(openness) : light * volume.radiance_unit;
     imageStore(picture, pixel, value);

@@ -9,7 +9,7 @@ constexpr std::uint32_t spacing_constant = 1;  // of traced_pixels.glsl
 constexpr std::uint32_t rows_constant = 2;     // of trace_pixels.comp
 constexpr VkExtent2D tile{8, 4};               // traced pixels of a workgroup
 // Of listed_pixels.glsl: where the lists' dispatch arguments stand, and in how many bytes.
-constexpr VkDeviceSize unlike_groups = 0, transmissive_groups = 16, lists_header_bytes = 32;
+constexpr VkDeviceSize unlike_diffuse_groups = 0, unlike_specular_groups = 16, transmissive_groups = 32, lists_header_bytes = 48;
 
 /// What one frame's passes share.
 struct ConeTrace {
@@ -20,7 +20,9 @@ struct ConeTrace {
     Shaded shaded;
     VkExtent2D extent, cells;
     ConeTraceOptions options;
-    graph::ImageHandle weights, diffuse, specular, transmitted;
+    graph::ImageHandle weights;
+    graph::ImageHandle diffuse, specular;                       // of traced pixels
+    graph::ImageHandle own_diffuse, own_specular, transmitted;  // of listed ones
     graph::BufferHandle listed;
 
     [[nodiscard]] gpu::Specialization constants() const {
@@ -75,14 +77,16 @@ Result<void> add_weights(graph::Graph& graph, gpu::Pipelines& pipelines, const C
     return {};
 }
 
-/// All cones at once: each of the three dispatches writes what no other one does.
+/// All cones at once: each of the four dispatches writes what no other one does.
 Result<void> add_cones(graph::Graph& graph, gpu::Pipelines& pipelines, const ConeTrace& cones) {
     gpu::Specialization constants = cones.constants();
     constants[rows_constant] = cones.options.spacing == 1 ? 2 : 5;
     auto traced = pipelines.compute("passes/cone_trace/trace_pixels.comp", constants);
     if (!traced) return tl::unexpected(traced.error());
-    auto unlike = pipelines.compute("passes/cone_trace/trace_listed.comp", cones.constants());
-    if (!unlike) return tl::unexpected(unlike.error());
+    auto diffuse = pipelines.compute("passes/cone_trace/trace_diffuse.comp", cones.constants());
+    if (!diffuse) return tl::unexpected(diffuse.error());
+    auto specular = pipelines.compute("passes/cone_trace/trace_specular.comp", cones.constants());
+    if (!specular) return tl::unexpected(specular.error());
     auto refracted = pipelines.compute("passes/cone_trace/trace_refracted.comp", cones.constants());
     if (!refracted) return tl::unexpected(refracted.error());
     graph.add_pass(
@@ -91,19 +95,19 @@ Result<void> add_cones(graph::Graph& graph, gpu::Pipelines& pipelines, const Con
             cones.read_surfaces(pass);
             pass.read(cones.listed, Usage::storage_read);
             pass.read(cones.listed, Usage::indirect);
-            for (const graph::ImageHandle image : {cones.diffuse, cones.specular, cones.transmitted})
+            for (const graph::ImageHandle image : {cones.diffuse, cones.specular, cones.own_diffuse, cones.own_specular, cones.transmitted})
                 pass.write(image, Usage::storage_write);
-            pass.read_write(cones.shaded.picture, Usage::storage_read_write);
         },
-        [cones, traced = *traced, unlike = *unlike, refracted = *refracted](graph::PassContext& context) {
-            const gpu::Buffer& listed = context.buffer(cones.listed);
+        [cones, traced = *traced, diffuse = *diffuse, specular = *specular, refracted = *refracted](graph::PassContext& context) {
             gpu::Commands& commands = context.commands;
-            commands.dispatch_indirect(*refracted, gpu::NoPushConstants{},
-                                       cones.bindings(*refracted, context, {{16, context.image(cones.transmitted)}}), listed,
-                                       transmissive_groups);
-            commands.dispatch_indirect(*unlike, gpu::NoPushConstants{},
-                                       cones.bindings(*unlike, context, {{13, context.image(cones.shaded.picture)}}), listed,
-                                       unlike_groups);
+            const auto trace_list = [&](const gpu::ComputePipeline& pipeline, graph::ImageHandle image, VkDeviceSize groups) {
+                commands.dispatch_indirect(pipeline, gpu::NoPushConstants{}, cones.bindings(pipeline, context, {{13, context.image(image)}}),
+                                           context.buffer(cones.listed), groups);
+            };
+            // The longest first.
+            trace_list(*refracted, cones.transmitted, transmissive_groups);
+            trace_list(*specular, cones.own_specular, unlike_specular_groups);
+            trace_list(*diffuse, cones.own_diffuse, unlike_diffuse_groups);
             const glm::uvec3 groups{(cones.cells.width + tile.width - 1) / tile.width,
                                     (cones.cells.height + tile.height - 1) / tile.height, 1};
             commands.dispatch(*traced, gpu::NoPushConstants{},
@@ -120,7 +124,8 @@ Result<void> add_resolve(graph::Graph& graph, gpu::Pipelines& pipelines, const C
         "cone trace", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             cones.read_surfaces(pass);
-            for (const graph::ImageHandle image : {cones.weights, cones.diffuse, cones.specular, cones.transmitted})
+            for (const graph::ImageHandle image :
+                 {cones.weights, cones.diffuse, cones.specular, cones.own_diffuse, cones.own_specular, cones.transmitted})
                 pass.read(image, Usage::sampled);
             pass.read_write(cones.shaded.picture, Usage::storage_read_write);
         },
@@ -131,7 +136,9 @@ Result<void> add_resolve(graph::Graph& graph, gpu::Pipelines& pipelines, const C
                                                   {14, sampled(cones.diffuse)},
                                                   {15, sampled(cones.specular)},
                                                   {16, sampled(cones.weights)},
-                                                  {17, sampled(cones.transmitted)}});
+                                                  {17, sampled(cones.transmitted)},
+                                                  {27, sampled(cones.own_diffuse)},
+                                                  {28, sampled(cones.own_specular)}});
             context.commands.dispatch_threads(*resolve, gpu::NoPushConstants{}, bindings,
                                               {cones.extent.width, cones.extent.height, 1});
         });
@@ -160,8 +167,10 @@ Result<void> add_cone_trace(graph::Graph& graph, gpu::Pipelines& pipelines, cons
                           .weights = image("weights of traced pixels", VK_FORMAT_R32G32_UINT, extent),
                           .diffuse = image("traced diffuse", VK_FORMAT_R16G16B16A16_SFLOAT, cells),
                           .specular = image("traced specular", VK_FORMAT_R16G16B16A16_SFLOAT, cells),
+                          .own_diffuse = image("diffuse of unlike pixels", VK_FORMAT_R16G16B16A16_SFLOAT, extent),
+                          .own_specular = image("specular of unlike pixels", VK_FORMAT_R16G16B16A16_SFLOAT, extent),
                           .transmitted = image("transmitted", VK_FORMAT_R16G16B16A16_SFLOAT, extent),
-                          .listed = graph.create_buffer({"listed pixels", lists_header_bytes + 2 * list_bytes})};
+                          .listed = graph.create_buffer({"listed pixels", lists_header_bytes + 3 * list_bytes})};
     return add_weights(graph, pipelines, cones)
         .and_then([&] { return add_cones(graph, pipelines, cones); })
         .and_then([&] { return add_resolve(graph, pipelines, cones); });

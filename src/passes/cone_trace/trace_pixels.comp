@@ -23,10 +23,7 @@ void main() {
     const ivec2 cell = ivec2(gl_WorkGroupID.xy) * tile + ivec2(lane % uint(tile.x), lane / uint(tile.x));
     const bool within = all(lessThan(cell, imageSize(diffuse)));
     const ivec2 pixel = traced_pixel(cell, frame.sample_index, ivec2(frame.width, frame.height));
-    const ConeSurface surface = surface_at(pixel);
-    const bool seen = within && surface.depth_m > 0.0f;
-    const bool rough = seen && surface.albedo.diffuse != vec3(0.0f);
-    const bool glossy = seen && surface.albedo.specular != vec3(0.0f);
+    const ConePlace surface = place_at(pixel);
     const Frame about = frame_from_normal(surface.normal);
     const vec3 origin = cone_origin(position_at(pixel, surface.depth_m), surface.geometric);
     vec4 sum = vec4(0.0f);
@@ -34,7 +31,7 @@ void main() {
     for (uint i = 0u; i < in_turn * volume.cone_sets; ++i) {
         const uint index = row * in_turn + i % in_turn;
         const bool lobe = index == cones_per_set;
-        if (lobe ? !glossy || i >= in_turn : !rough || index > cones_per_set) continue;
+        if (!within || (lobe ? !surface.glossy || i >= in_turn : !surface.rough || index > cones_per_set)) continue;
         Cone cone;
         if (lobe) cone = specular_cone(viewer(pixel, surface.normal), surface.alpha);
         else cone = diffuse_cone(index, i / in_turn, volume.cone_sets, frame.cone_shift);

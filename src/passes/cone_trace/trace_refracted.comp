@@ -1,28 +1,42 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What is seen through transmissive surfaces.
+// What is seen through transmissive surfaces: an invocation a cone.
 #include "passes/cone_trace/cone_pixels.glsl"
 #include "passes/cone_trace/listed_pixels.glsl"
 #include "passes/cone_trace/refracted.glsl"
 
-layout(local_size_x = 32) in;
-layout(set = 0, binding = 16, rgba16f) uniform writeonly image2D transmitted;  // radiance in the volume's unit, before its albedo
+layout(local_size_x = listed_a_group, local_size_y = refracted_cones) in;
+layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D transmitted;  // radiance in the volume's unit, before its albedo
 layout(set = 0, binding = 25) uniform usampler2D visibility;
 
-void main() {
-    const uint index = linear_group() * 32u + gl_LocalInvocationID.x;
-    if (index >= listed.groups[transmissive].w) return;
-    const ivec2 pixel = listed_pixel(listed.pixels[transmissive * frame.width * frame.height + index]);
+shared Refracted found[listed_a_group];
+shared vec3 traced[refracted_cones][listed_a_group];
+
+Refracted refracted_at(ivec2 pixel) {
     const uvec2 visible = texelFetch(visibility, pixel, 0).xy;
     const SurfacePoint point = resolve_surface(visible.x - 1u, visible.y, frame, view_ray(pixel));
     const vec3 wo = to_local(point.frame, point.wo);
-    const BsdfLobes lobes = bsdf_prepare(point.material.surface, wo);
-    const Refracted through = refracted(point, wo, lobes, solid_diagonal(visible.x - 1u));
-    vec3 radiance = vec3(0.0f);
-    for (uint i = 0u; i < refracted_cones; ++i) {
-        vec3 origin;
-        const Cone cone = refracted_cone(through, i, origin);
-        if (cone.weight > 0.0f) radiance += cone.weight * through.tint * cone_light(origin, cone).radiance;
-    }
+    return refracted(point, wo, bsdf_prepare(point.material.surface, wo), solid_diagonal(visible.x - 1u));
+}
+
+vec3 trace(Refracted through, uint index) {
+    vec3 origin;
+    const Cone cone = refracted_cone(through, index, origin);
+    return cone.weight > 0.0f ? cone.weight * through.tint * cone_light(origin, cone).radiance : vec3(0.0f);
+}
+
+void main() {
+    const uint lane = gl_LocalInvocationID.x;
+    const uint row = gl_LocalInvocationID.y;
+    uint packed_pixel;
+    const bool there = listed_entry(transmissive, linear_group() * listed_a_group + lane, frame.width * frame.height, packed_pixel);
+    const ivec2 pixel = listed_pixel(packed_pixel);
+    if (there && row == 0u) found[lane] = refracted_at(pixel);
+    barrier();
+    if (there) traced[row][lane] = trace(found[lane], row);
+    barrier();
+    if (!there || row > 0u) return;
+    vec3 radiance = traced[0][lane];
+    for (uint i = 1u; i < refracted_cones; ++i) radiance += traced[i][lane];
     imageStore(transmitted, pixel, vec4(in_volume_unit(radiance), 0.0f));
 }

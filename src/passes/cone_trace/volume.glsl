@@ -11,9 +11,8 @@
 layout(set = 0, binding = 20) uniform sampler3D voxel_faces_texture;
 layout(set = 0, binding = 22) uniform sampler3D voxel_depths_texture;
 layout(constant_id = 6) const bool nested = true;  // there is more than one cascade
-layout(constant_id = 8) const bool asks_occupancy = true;
 layout(set = 0, binding = 21, std140) uniform Volume_ { VolumeData volume; };
-layout(set = 0, binding = 23, std430) readonly buffer Occupancy { uint occupancy[]; };
+layout(set = 0, binding = 23, std430) readonly buffer Occupancy { uint emptiness[]; };
 
 /// World to the lattice of the finest voxels.
 vec3 to_lattice(vec3 world) { return (world - volume.lattice) / volume.voxel_m; }
@@ -77,14 +76,13 @@ vec3 face_coordinates(vec3 position, float edge, float level) {
     return at / (size * vec3(2.0f, nested ? float(volume.cascades) : 1.0f, 3.0f));
 }
 
-/// Bit 2 axis + side: whether a look at this texel, of the lattice at `level`, can find that face to cover anything.
-uint occupied_faces(ivec3 texel, uint level) {
-    const uint cascade = nested ? min(level, volume.cascades - 1u) : 0u;
-    const uint mip = level - cascade;
-    const int size = int(volume.size >> mip);
-    const ivec3 at = clamp(nested ? texel - volume.cascade[cascade].base : texel, ivec3(0), ivec3(size - 1));  // the widest has base 0
-    const uint word = occupancy_first(volume.size, cascade, mip) + uint(at.x + size * (at.y + size * at.z)) / 4u;
-    return occupancy[word] >> 8u * (uint(at.x) & 3u);
+/// Of the voxel of the finest cascade that holds a position: its level, and of each face how many levels are empty there.
+uint emptiness_at(vec3 position, out uint finest) {
+    finest = nested ? uint(level_holding(position)) : 0u;
+    const int size = int(volume.size);
+    const ivec3 voxel = nested ? ivec3(floor(position * exp2(-float(finest)))) - volume.cascade[finest].base : ivec3(floor(position));
+    const ivec3 at = clamp(voxel, ivec3(0), ivec3(size - 1));
+    return emptiness[at.x + size * (at.y + size * (at.z + size * int(finest)))];
 }
 
 // Cones that graze a layer at less than a quarter of its slope pass it too seldom to matter.
@@ -104,9 +102,7 @@ struct ConeWalk {
     vec3 look;         // of a layer, from look to look
     vec3 edge;         // of each axis' layers
     vec3 next;         // way to its next look
-    uint facing;       // bits of the faces that look against the cone
-    uint levels;       // whose occupancy is asked for
-    uint wide_level;   // at which to ask first whether there is anything
+    uvec3 facing;      // where in an emptiness each axis' faces stand that look against the cone
 };
 
 ConeWalk begin_walk(vec3 origin, vec3 direction, float tan_half_angle, float reach) {
@@ -131,29 +127,47 @@ ConeWalk begin_walk(vec3 origin, vec3 direction, float tan_half_angle, float rea
     walk.edge = vec3(nested ? exp2(level_holding(origin + direction * walk.begin)) : 1.0f);
     const vec3 layer = floor((walk.start + walk.slope * walk.begin) / walk.edge);
     walk.next = max(((layer + 0.5f * walk.look) * walk.edge - walk.start) * walk.inverse, vec3(walk.begin));
-    walk.facing = (walk.backward.x ? 1u : 2u) | (walk.backward.y ? 4u : 8u) | (walk.backward.z ? 16u : 32u);
-    walk.levels = asks_occupancy ? occupancy_levels(volume.size) + (nested ? volume.cascades - 1u : 0u) : 0u;
-    walk.wide_level = 0u;
+    walk.facing = emptiness_bits * (uvec3(0u, 2u, 4u) + uvec3(not(walk.backward)));
     return walk;
 }
 
 float coarsest_edge(ConeWalk walk) { return 0.5f * walk.wide; }  // of the level before the last
 
-/// The axis whose look comes first; of several, one.
-bvec3 next_axis(ConeWalk walk, float t) {
-    const bool x = walk.next.x <= t;
-    const bool y = !x && walk.next.y <= t;
-    return bvec3(x, y, !x && !y);
+/// The layer whose look comes first, of one axis; of several, of one.
+struct Layer {
+    bvec3 axis;
+    float start, slope, inverse, edge;  // the walk's along the axis
+    float t;                            // way to the look
+};
+float along(bvec3 axis, vec3 v) { return axis.x ? v.x : axis.y ? v.y : v.z; }
+
+Layer next_layer(ConeWalk walk) {
+    Layer layer;
+    layer.t = min(walk.next.x, min(walk.next.y, walk.next.z));
+    const bool x = walk.next.x <= layer.t;
+    const bool y = !x && walk.next.y <= layer.t;
+    layer.axis = bvec3(x, y, !x && !y);
+    layer.start = along(layer.axis, walk.start);
+    layer.slope = along(layer.axis, walk.slope);
+    layer.inverse = along(layer.axis, walk.inverse);
+    layer.edge = along(layer.axis, walk.edge);
+    return layer;
+}
+void go_on(inout ConeWalk walk, bvec3 axis, float edge, float next) {
+    walk.edge = mix(walk.edge, vec3(edge), axis);
+    walk.next = mix(walk.next, vec3(next), axis);
 }
 
 /// Past its cascade an axis goes on in the layer of the next one that holds its layer, if that lies ahead.
-void leave_cascade(inout ConeWalk walk, bvec3 axis, float t) {
-    const vec3 outer_edge = 2.0f * walk.edge;
-    vec3 outer = floor(floor((walk.start + walk.slope * t) / walk.edge) * 0.5f);
-    outer += vec3(lessThan(((outer + 0.5f) * outer_edge - walk.start) * walk.inverse, vec3(walk.begin)));
-    walk.next = mix(walk.next, ((outer + 0.5f) * outer_edge - walk.start) * walk.inverse, axis);
-    walk.edge = mix(walk.edge, outer_edge, axis);
+void leave_cascade(inout ConeWalk walk, Layer layer) {
+    const float outer_edge = 2.0f * layer.edge;
+    float outer = floor(floor((layer.start + layer.slope * layer.t) / layer.edge) * 0.5f);
+    if (((outer + 0.5f) * outer_edge - layer.start) * layer.inverse < walk.begin) outer += 1.0f;
+    go_on(walk, layer.axis, outer_edge, ((outer + 0.5f) * outer_edge - layer.start) * layer.inverse);
 }
+
+/// Twice the powers of two that are at most v, of its exponents' bits.
+vec3 twice_power_below(vec3 v) { return uintBitsToFloat((floatBitsToUint(v) & 0x7f800000u) + 0x00800000u); }
 
 /// Where the cone leaves the texel of edge `edge` that holds it at `t`, a little past the border.
 float leaves_texel(ConeWalk walk, float edge, float t) {
@@ -161,39 +175,32 @@ float leaves_texel(ConeWalk walk, float edge, float t) {
     return min(leaves.x, min(leaves.y, leaves.z));
 }
 
-/// Nothing in the texel that holds the way's position: axes of its level and finer ones go on from where the cone leaves
-/// it, at the level that fits there as far as that one's texels lie within this texel.
-void leave_texel(inout ConeWalk walk, float texel_edge, float t) {
-    const float onward = leaves_texel(walk, texel_edge, t);
-    const uint width = uint(onward * walk.radius);
-    const float fitting = width == 0u ? 1.0f : float(2u << findMSB(width));
-    const bvec3 passes = bvec3(uvec3(lessThan(walk.next, vec3(onward))) & uvec3(lessThanEqual(walk.edge, vec3(texel_edge))));
-    walk.edge = mix(walk.edge, min(max(walk.edge, vec3(fitting)), vec3(min(texel_edge, coarsest_edge(walk)))), passes);
+/// What is empty for an axis ends with a texel of its own edge. Where that is at least the axis' layers' edge it goes on from where
+/// the cone leaves the texel: at the level that fits there, but none coarser than what is empty for all axes.
+void leave_texels(inout ConeWalk walk, vec3 texels, float t) {
+    const vec3 onward = vec3(leaves_texel(walk, texels.x, t), leaves_texel(walk, texels.y, t), leaves_texel(walk, texels.z, t));
+    const float coarsest = min(coarsest_edge(walk), min(texels.x, min(texels.y, texels.z)));
+    const vec3 fitting = min(twice_power_below(onward * walk.radius), coarsest);
+    const bvec3 passes = bvec3(uvec3(lessThan(walk.next, onward)) & uvec3(lessThanEqual(walk.edge, texels)));
+    walk.edge = mix(walk.edge, max(walk.edge, fitting), passes);
     const vec3 looks_at = (floor((walk.start + walk.slope * onward) / walk.edge) + 0.5f * walk.look) * walk.edge;
-    walk.next = mix(walk.next, max((looks_at - walk.start) * walk.inverse, vec3(onward)), passes);
+    walk.next = mix(walk.next, max((looks_at - walk.start) * walk.inverse, onward), passes);
 }
 
-/// One step of the walk: true at a look that can find something. Steps and looks take turns in one loop, so that cones that
-/// are traced together need not wait for each other's way through empty space.
-bool step_on(inout ConeWalk walk, float t, out bvec3 axis, out uint level) {
-    axis = next_axis(walk, t);
-    const float edge = dot(vec3(axis), walk.edge);
-    const vec3 position = walk.origin + walk.direction * t;
-    level = findMSB(uint(edge));
-    if (nested && exp2(level_holding(position)) > edge) {
-        leave_cascade(walk, axis, t);
-        return false;
+/// Goes past what is empty at the way's position; false where the layer has to be looked at.
+bool pass_empty(inout ConeWalk walk, Layer layer) {
+    const vec3 position = walk.origin + walk.direction * layer.t;
+    if (nested && exp2(level_holding(position)) > layer.edge) {
+        leave_cascade(walk, layer);
+        return true;
     }
-    if (level >= walk.levels) return true;
-    const uint asked = max(level, min(walk.wide_level, walk.levels - 1u));
-    const float asked_edge = float(1u << asked);
-    if ((occupied_faces(ivec3(floor(position / asked_edge)), asked) & walk.facing) == 0u) {
-        leave_texel(walk, asked_edge, t);
-        walk.wide_level = asked + 1u;
-        return false;
-    }
-    walk.wide_level = max(asked, 1u) - 1u;
-    return asked == level;
+    uint finest;
+    const uint empty = emptiness_at(position, finest);
+    const uvec3 levels = (uvec3(empty) >> walk.facing) & ((1u << emptiness_bits) - 1u);
+    const vec3 texels = exp2(vec3(finest + levels) - 1.0f);
+    if (along(layer.axis, texels) < layer.edge) return false;
+    leave_texels(walk, texels, layer.t);
+    return true;
 }
 
 // What a look finds.
@@ -201,22 +208,21 @@ const uint missed = 0u, met = 1u, met_later = 2u;
 
 /// The layer is done with once something of it was met. An axis goes to the coarser level where its next layer begins one
 /// there, so that each layer counts once.
-void leave_look(inout ConeWalk walk, bvec3 axis, float t, uint found) {
+void leave_look(inout ConeWalk walk, Layer layer, uint found) {
     if (found == met_later) {
-        walk.next = mix(walk.next, vec3(leaves_texel(walk, dot(vec3(axis), walk.edge), t)), axis);
+        go_on(walk, layer.axis, layer.edge, leaves_texel(walk, layer.edge, layer.t));
         return;
     }
-    const vec3 walked = (walk.start + walk.slope * t) / walk.edge;
-    const vec3 layer = floor(walked);
-    const vec3 ahead = walked + walk.look;
-    const bvec3 leaves = bvec3(uvec3(found == met) | uvec3(greaterThanEqual(ahead, layer + 1.0f)));
-    const bvec3 coarser = bvec3(uvec3(leaves) & uvec3(greaterThanEqual(vec3(t * walk.radius), walk.edge)) &
-                                uvec3(lessThan(walk.edge, vec3(coarsest_edge(walk)))) & uvec3(equal(fract(0.5f * (layer + 1.0f)), vec3(0.0f))));
-    const vec3 scale = mix(vec3(1.0f), vec3(2.0f), coarser);
-    const vec3 edge = walk.edge * scale;
-    const vec3 onward = mix(ahead, (layer + 1.0f) / scale + 0.5f * walk.look, leaves);
-    walk.edge = mix(walk.edge, edge, axis);
-    walk.next = mix(walk.next, (onward * edge - walk.start) * walk.inverse, axis);
+    const float look = along(layer.axis, walk.look);
+    const float walked = (layer.start + layer.slope * layer.t) / layer.edge;
+    const float after = floor(walked) + 1.0f;
+    const float ahead = walked + look;
+    const bool leaves = found == met || ahead >= after;
+    const bool coarser = leaves && layer.t * walk.radius >= layer.edge && layer.edge < coarsest_edge(walk) && fract(0.5f * after) == 0.0f;
+    const float scale = coarser ? 2.0f : 1.0f;
+    const float edge = layer.edge * scale;
+    const float onward = leaves ? after / scale + 0.5f * look : ahead;
+    go_on(walk, layer.axis, edge, (onward * edge - layer.start) * layer.inverse);
 }
 
 struct ConeResult {
@@ -226,25 +232,25 @@ struct ConeResult {
 
 /// What the cone meets of the layer it looks at, if it does ahead of its origin and within its reach. A face deeper than
 /// the cone goes in this texel is left to a look there: here interpolation shows the ends of what stands elsewhere.
-uint meet_layer(ConeWalk walk, bvec3 axis, float t, uint level, inout ConeResult result) {
-    const float edge = dot(vec3(axis), walk.edge);
-    const float start = dot(vec3(axis), walk.start);
-    const bool turned = any(bvec3(axis.x && walk.backward.x, axis.y && walk.backward.y, axis.z && walk.backward.z));
+uint meet_layer(ConeWalk walk, Layer layer, inout ConeResult result) {
+    const uint level = findMSB(uint(layer.edge));
+    const bool turned = any(bvec3(uvec3(layer.axis) & uvec3(walk.backward)));
     const float mip = float(nested ? level - min(level, volume.cascades - 1u) : level);
     // A ray that goes forward sees what looks backward. Along the axis a layer's texels are looked up in their middle,
     // wherever the face stands: layers do not mix.
-    const vec3 corner = vec3(turned ? 0.0f : 0.5f, 0.0f, axis.y ? 1.0f / 3.0f : axis.x ? 0.0f : 2.0f / 3.0f);
-    const float layer = floor((start + dot(vec3(axis), walk.slope) * t) / edge);
-    const float forward_middle = (layer + 0.5f) * edge;
+    const vec3 corner = vec3(turned ? 0.0f : 0.5f, 0.0f, layer.axis.y ? 1.0f / 3.0f : layer.axis.x ? 0.0f : 2.0f / 3.0f);
+    const float number = floor((layer.start + layer.slope * layer.t) / layer.edge);
+    const float forward_middle = (number + 0.5f) * layer.edge;
     const vec3 middle = vec3(turned ? walk.wide - forward_middle : forward_middle);
-    const vec3 at = corner + face_coordinates(mix(walk.origin + walk.direction * t, middle, axis), edge, float(level));
+    const vec3 at = corner + face_coordinates(mix(walk.origin + walk.direction * layer.t, middle, layer.axis), layer.edge, float(level));
     const vec4 seen = textureLod(voxel_faces_texture, at, mip);
+    const float deep = textureLod(voxel_depths_texture, at, mip).r;  // both at once: what is empty is seldom looked at
     if (seen.a <= 0.0f) return missed;
-    const float depth = clamp(textureLod(voxel_depths_texture, at, mip).r / seen.a, 0.0f, 1.0f);
-    const float meets = ((layer + (turned ? 1.0f - depth : depth)) * edge - start) * dot(vec3(axis), walk.inverse);
+    const float depth = clamp(deep / seen.a, 0.0f, 1.0f);
+    const float meets = ((number + (turned ? 1.0f - depth : depth)) * layer.edge - layer.start) * layer.inverse;
     if (!(meets >= walk.begin && meets <= walk.end)) return missed;
-    if (meets > leaves_texel(walk, edge, t)) return met_later;
-    const vec3 place = corner + face_coordinates(mix(walk.origin + walk.direction * meets, middle, axis), edge, float(level));
+    if (meets > leaves_texel(walk, layer.edge, layer.t)) return met_later;
+    const vec3 place = corner + face_coordinates(mix(walk.origin + walk.direction * meets, middle, layer.axis), layer.edge, float(level));
     const vec4 face = textureLod(voxel_faces_texture, place, mip);
     if (face.a <= 0.0f) return missed;
     const float gained = min(face.a, 1.0f - result.cover);
@@ -253,17 +259,15 @@ uint meet_layer(ConeWalk walk, bvec3 axis, float t, uint level, inout ConeResult
     return met;
 }
 
-/// `origin` and `reach` in finest voxels; `direction` unit.
+/// `origin` and `reach` in finest voxels; `direction` unit. Ways past what is empty and looks take turns in one loop, so that
+/// cones that are traced together need not wait for each other's way through empty space.
 ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float reach) {
     ConeResult result = ConeResult(vec3(0.0f), 0.0f);
     ConeWalk walk = begin_walk(origin, direction, tan_half_angle, reach);
     while (result.cover < 0.999f) {
-        const float t = min(walk.next.x, min(walk.next.y, walk.next.z));
-        if (!(t <= walk.end)) break;
-        bvec3 axis;
-        uint level;
-        if (!step_on(walk, t, axis, level)) continue;
-        leave_look(walk, axis, t, meet_layer(walk, axis, t, level, result));
+        const Layer layer = next_layer(walk);
+        if (!(layer.t <= walk.end)) break;
+        if (!pass_empty(walk, layer)) leave_look(walk, layer, meet_layer(walk, layer, result));
     }
     result.radiance *= volume.radiance_unit;
     return result;

@@ -27,28 +27,28 @@ float gloss_error(Gloss gloss, Gloss other) {
 /// What counts of a traced pixel: nothing where it is half a voxel, or half a cone, from this one.
 float likeness(float error) { return max(0.0f, 1.0f - 2.0f * error); }
 
-Gloss gloss_at(ivec2 pixel, ConeSurface surface) {
+Gloss gloss_at(ivec2 pixel, ConePlace surface) {
     const Cone cone = specular_cone(viewer(pixel, surface.normal), surface.alpha);
     return Gloss(to_world(frame_from_normal(surface.normal), cone.direction), 2.0f * asin(sqrt(0.5f * cone.one_minus_cos)));
 }
 
-void weigh(ivec2 pixel, ConeSurface surface, bool rough, bool glossy, out vec4 diffuse, out vec4 specular) {
+void weigh(ivec2 pixel, ConePlace surface, out vec4 diffuse, out vec4 specular) {
     const ivec2 size = ivec2(frame.width, frame.height);
     const AboutPixel about = about_pixel(pixel, frame.sample_index, size);
     const vec3 position = position_at(pixel, surface.depth_m);
     Gloss gloss = Gloss(vec3(0.0f), 0.0f);
-    if (glossy) gloss = gloss_at(pixel, surface);
+    if (surface.glossy) gloss = gloss_at(pixel, surface);
     diffuse = vec4(0.0f);
     specular = vec4(0.0f);
     for (int i = 0; i < 4; ++i) {
         if (about.shares[i] == 0.0f) continue;
         const ivec2 there = traced_pixel(about.cells[i], frame.sample_index, size);
-        const ConeSurface other = surface_at(there);
+        const ConePlace other = place_at(there);
         if (other.depth_m == 0.0f) continue;
         const float plane = plane_error(surface.normal, position_at(there, other.depth_m) - position);
-        if (rough && other.albedo.diffuse != vec3(0.0f))
+        if (surface.rough && other.rough)
             diffuse[i] = about.shares[i] * likeness(plane + diffuse_error(surface.normal, other.normal));
-        if (glossy && other.albedo.specular != vec3(0.0f))
+        if (surface.glossy && other.glossy)
             specular[i] = about.shares[i] * likeness(plane + gloss_error(gloss, gloss_at(there, other)));
     }
 }
@@ -64,7 +64,7 @@ void enlist(uint list, bool wanted, uint packed_pixel) {
     uint first = 0u;
     if (subgroupElect() && count > 0u) {
         first = atomicAdd(listed.groups[list].w, count);
-        const uvec4 groups = spread_groups((first + count + 31u) / 32u);
+        const uvec4 groups = spread_groups((first + count + listed_a_group - 1u) / listed_a_group);
         atomicMax(listed.groups[list].x, groups.x);
         atomicMax(listed.groups[list].y, groups.y);
         atomicMax(listed.groups[list].z, groups.z);
@@ -77,19 +77,15 @@ void main() {
     if (frame.batch != 0u) return;
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     const bool within = pixel.x < int(frame.width) && pixel.y < int(frame.height);
-    const ConeSurface surface = surface_at(within ? pixel : ivec2(0));
-    const bool seen = within && surface.depth_m > 0.0f;
-    const bool rough = seen && surface.albedo.diffuse != vec3(0.0f);
-    const bool glossy = seen && surface.albedo.specular != vec3(0.0f);
+    const ConePlace surface = place_at(min(pixel, ivec2(frame.width, frame.height) - 1));
     vec4 diffuse = vec4(0.0f);
     vec4 specular = vec4(0.0f);
-    if (rough || glossy) weigh(pixel, surface, rough, glossy, diffuse, specular);
+    if (within && (surface.rough || surface.glossy)) weigh(pixel, surface, diffuse, specular);
     const uvec2 packed_weights = uvec2(pack_weights(diffuse), pack_weights(specular));
     if (within) imageStore(weights, pixel, uvec4(packed_weights, 0u, 0u));
-    const bool has_diffuse = !rough || packed_weights.x != 0u;
-    const bool has_specular = !glossy || packed_weights.y != 0u;
-    const bool coated = seen && surface.albedo.coat != vec3(0.0f);
-    const uint packed_pixel = pack_listed(pixel, has_diffuse, has_specular);
-    enlist(unlike, !has_diffuse || !has_specular || coated, packed_pixel);
-    enlist(transmissive, seen && surface.albedo.refraction != vec3(0.0f), packed_pixel);
+    const bool has_specular = !surface.glossy || packed_weights.y != 0u;
+    const uint packed_pixel = pack_listed(pixel, has_specular);
+    enlist(unlike_diffuse, within && surface.rough && packed_weights.x == 0u, packed_pixel);
+    enlist(unlike_specular, within && (surface.coated || !has_specular), packed_pixel);
+    enlist(transmissive, within && surface.transmissive, packed_pixel);
 }

@@ -1,5 +1,7 @@
 #include "passes/inject/inject.h"
 
+#include "passes/shadow_cones/shadow_cones.h"
+
 #include <bit>
 #include <cstddef>
 
@@ -166,6 +168,13 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
                               const VolumeImages& images) {
     gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
     set_light_constants(constants, scene);
+    graph::BufferHandle shares;
+    if (lighting.shadows_traced) {
+        auto traced = add_voxel_shadows(graph, pipelines, scene, lighting, cascade, images);
+        if (!traced) return tl::unexpected(traced.error());
+        shares = *traced;
+        constants[17] = 1;
+    }
     auto pipeline = pipelines.compute("passes/inject/direct.comp", constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
@@ -178,10 +187,11 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
             pass.read(cascade.surfaces.records, Usage::storage_read);
             pass.read(shadow_maps.depth, Usage::sampled);
             pass.read(shadow_maps.slope, Usage::sampled);
+            if (shares) pass.read(shares, Usage::storage_read);
             read_volume(pass, images);
             pass.read_write(cascade.illuminance, Usage::storage_read_write);
         },
-        [&scene, &lighting, cascade, shadow_maps, direct = *pipeline](PassContext& context) {
+        [&scene, &lighting, cascade, shadow_maps, shares, direct = *pipeline](PassContext& context) {
             const auto bindings = select_bindings(*direct, scene,
                                                   {{9, *lighting.shadow_views},
                                                    {24, *lighting.light_grid},
@@ -192,6 +202,7 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
                                                    {25, context.buffer(cascade.lit_faces)},
                                                    {18, context.buffer(cascade.surfaces.records)},
                                                    {19, context.buffer(cascade.illuminance)},
+                                                   {27, context.buffer(shares ? shares : cascade.surfaces.cells)},  // else nothing reads it
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},
                                                    {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
@@ -203,9 +214,7 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
 
 Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VolumeInputs& volume,
                         const InjectCascade& cascade, const VolumeImages& images) {
-    // Wide cones from faces that lie apart: a GPU looks faster than it asks whether to look (docs/performance.md).
-    const bool asks_occupancy = pipelines.device().info().is_cpu;
-    auto pipeline = pipelines.compute("passes/inject/gather.comp", {{6, volume.nested ? 1u : 0u}, {8, asks_occupancy ? 1u : 0u}});
+    auto pipeline = pipelines.compute("passes/inject/gather.comp", cone_constants(volume));
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
         "gather", PassKind::compute,

@@ -1,4 +1,4 @@
-// Which voxels show anything to a cone that looks in or about them, in C++ and GLSL (docs/gi-theory.md).
+// How far cones may go before anything shows itself to them, in C++ and GLSL (docs/gi-theory.md).
 #ifndef HELIODON_PASSES_OCCUPANCY_SHARED_H
 #define HELIODON_PASSES_OCCUPANCY_SHARED_H
 #include "shading/language.h"
@@ -20,6 +20,18 @@ SHADING_FN uint occupancy_levels(uint n) {
     while ((n >> levels) >= fewest_occupancy_texels) ++levels;
     return levels;
 }
+
+// Of these bytes each voxel of each cascade keeps, four bits a face, how many levels from its own on are empty where it lies.
+SHADING_CONST uint emptiness_bits = 4u;
+
+/// Work on the emptiness of a cascade.
+struct EmptinessConstants {
+    ivec3 base;        // VolumeCascade.base
+    uint size;         // voxels an edge
+    ivec3 outer_base;  // of the next cascade
+    uint cascade;
+    uint widest;       // 1: there is no next one, but levels
+};
 
 SHADING_END
 #endif
