@@ -231,8 +231,7 @@ Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const co
     if (everything) {
         instances_.clear();
         top_.reset(rtcNewScene(device_.get()));
-        // Of changing parts: what changed is built anew, and a tree over all parts, opened where they overlap.
-        rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
+        rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST);
         levels_.clear();
     }
     levels_.resize(flat.geometries().size());
@@ -272,6 +271,9 @@ Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const co
         top_changed = true;
     }
     if (top_changed) {
+        // One tree over all triangles traces fastest and is smallest. From the first change on, a tree a part and one over
+        // these, opened where they overlap: what changed is built anew.
+        if (!everything) rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
         rtcCommitScene(top_.get());
         result.top_level_built = true;
         any_translucent_ = std::any_of(instances_.begin(), instances_.end(), [](const Instance& instance) {
