@@ -113,6 +113,7 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
         layers = std::max(layers, batch.layer_count);
         views = std::max(views, batch.view_count);
     }
+    wanted_.metered = settings_.display.exposure.mode != ExposureMode::camera || settings_.display.tone.estimate_white;
     wanted_.blended = gpu_scene_.has_blended();
     wanted_.instance_capacity = std::max(instance_capacity(gpu_scene_.instance_count()), key_.instance_capacity);
     // Layers and fragments are kept once made: lights that blink cost no reallocation.
@@ -255,7 +256,9 @@ Result<void> FrameRenderer::build_frame_graph() {
     if (wanted_.display) {
         display = graph.import_image(display_.description());
         graph.export_image(display);
-        if (auto done = passes::add_tonemap(graph, pipelines_, sum, display, display_scale_, extent); !done) return done;
+        auto exposure = passes::add_meter(graph, pipelines_, sum, exposure_, wanted_.metered, extent);
+        if (!exposure) return tl::unexpected(exposure.error());
+        if (auto done = passes::add_tonemap(graph, pipelines_, sum, *exposure, display, tonemap_, extent); !done) return done;
     }
     if (auto done = frame_executor_->set_graph(graph); !done) return done;
     frame_executor_->bind(maps.depth, shadow_depth_);
@@ -297,7 +300,8 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
     if (auto done = device_.upload(camera_view_, std::span<const shading::ViewData>(&view, 1)); !done) return done;
     if (auto done = place_raster_camera(frame.world_to_clip); !done) return done;
     replace_sum_ = sample.replace && batch == 0;
-    display_scale_ = sample.display_scale;
+    // Batches of lights add up to one picture: it adapts once.
+    set_display(camera, {sample.display.sample_scale, batch + 1 == plan_.batches.size() ? sample.display.seconds : 0});
     if (auto done = frame_executor_->execute(*commands, &timestamps_); !done) return done;
     return submit(std::move(*commands), times);
 }

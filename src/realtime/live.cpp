@@ -20,6 +20,8 @@ constexpr int most_samples = 1024;
 // The first samples share one filtered shadow map, so that motion costs one; then its grid moves.
 constexpr int filtered_samples = 8;
 constexpr int samples_per_shadow_grid = 4;
+// An exposure has settled to a thousandth of its way after so many of its time constants.
+constexpr float settled_time_constants = 7;
 // How often a scene with blended surfaces is asked whether all of them found room (it waits for the GPU).
 constexpr int frames_between_overflow_checks = 16;
 
@@ -41,6 +43,8 @@ struct LiveRenderer::State {
     bool environment = true;
     int samples = 0;
     int frame_number = 0;
+    float rested_s = 0;   // since anything last changed
+    float exposure = 0;   // EV100 of the camera
 };
 
 LiveRenderer::LiveRenderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -59,22 +63,29 @@ Result<LiveRenderer> LiveRenderer::create(gpu::Device& device, const std::string
 }
 
 Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camera& camera, int width, int height,
-                                                 bool environment) try {
+                                                 bool environment, float seconds) try {
     State& state = *state_;
     FrameRenderer& frames = *state.frames;
     if (auto updated = frames.update(scene); !updated) return tl::unexpected(updated.error());
     if (auto done = frames.resize(width, height, true); !done) return tl::unexpected(done.error());
-    const shading::FrameData view = realtime::camera_frame(camera, frames.scene().bounds(), width, height, glm::vec2(0));
+    shading::FrameData view = realtime::camera_frame(camera, frames.scene().bounds(), width, height, glm::vec2(0));
+    view.exposure = 0;  // samples stay what they are however they are exposed
     const bool same = frames.scene().revision() == state.revision && environment == state.environment &&
                       !frames.shadows_lag() &&
                       !settings_changed(scene, state.journal) && std::memcmp(&view, &state.view, sizeof(view)) == 0;
-    if (!same) state.samples = 0;
+    if (!same) state.samples = 0, state.rested_s = 0;
+    state.rested_s += seconds;
     state.view = view;
     state.revision = frames.scene().revision();
     state.journal = scene.journal_end();
     state.environment = environment;
 
-    if (state.samples < most_samples) {
+    const ExposureSettings& exposure = scene.render_settings().display.exposure;
+    const bool exposed_anew = state.exposure != camera.ev100();
+    state.exposure = camera.ev100();
+    const bool adapting = exposure.mode != ExposureMode::camera &&
+                          state.rested_s < settled_time_constants * std::max(exposure.to_light_s, exposure.to_dark_s);
+    if (state.samples < most_samples || adapting || exposed_anew) {
         FrameSample sample;
         sample.index = static_cast<std::uint32_t>(state.samples);
         sample.count = 0;
@@ -85,7 +96,7 @@ Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camer
         sample.environment = environment;
         sample.cone_traced = frames.settings().gi == "vct";
         sample.replace = state.samples == 0;
-        sample.display_scale = view.exposure / static_cast<float>(state.samples + 1);
+        sample.display = {.sample_scale = 1.0f / static_cast<float>(state.samples + 1), .seconds = seconds};
         sample.texture_gradient_scale = 1.0f / std::sqrt(static_cast<float>(std::min(state.samples + 1, 64)));
         if (auto done = frames.render(camera, sample); !done) return tl::unexpected(done.error());
         ++state.samples;

@@ -27,8 +27,10 @@ public:
         const gpu::Image* image = nullptr;
         int accumulated_frames = 0;  ///< since anything last changed
     };
-    /// Submits the frame's work; the caller's next submission sees the finished picture. Does not wait for it.
-    [[nodiscard]] Result<Frame> render(const Scene& scene, const Camera& camera, int width, int height, bool environment = true);
+    /// Submits the frame's work; the caller's next submission sees the finished picture. Does not wait for it. `seconds`
+    /// since the frame before: how far a metered exposure adapts.
+    [[nodiscard]] Result<Frame> render(const Scene& scene, const Camera& camera, int width, int height, bool environment = true,
+                                       float seconds = 1 / 60.0f);
     /// GPU milliseconds a pass of a frame a little earlier; never waits.
     [[nodiscard]] std::vector<PassTime> pass_times();
     /// For drawing over the picture with shaders of one's own.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "convert/display.h"
+#include "core/units.h"
 #include "shared_data.h"
 #include "test_scenes.h"
 
@@ -104,6 +106,63 @@ TEST_F(Layers, AnUnknownLayerIsRefusedByName) {
     const auto picture = renderer->render(Scene{}, Camera{}, options);
     ASSERT_FALSE(picture);
     EXPECT_NE(picture.error().text().find("colour"), std::string::npos);
+}
+
+/// A uniform picture: a sky of `nits` and nothing else.
+Scene uniform_sky(float nits, const DisplaySettings& display) {
+    Scene scene;
+    Sky sky;
+    sky.model = SkyModel::constant;
+    sky.luminance_nits = glm::vec3(nits);
+    scene.set_sky(sky);
+    RenderSettings settings = scene.render_settings();
+    settings.display = display;
+    scene.set_render_settings(settings);
+    return scene;
+}
+/// Linear value of an exposure of exactly what the meter says: L/(1.2·8·L).
+constexpr float metered_value = 1 / 9.6f;
+
+TEST_F(Live, AMeteredExposureIsRightAtOnceAndAdaptsInTimeToWhatChanges) {
+    const DisplaySettings display{.tone = {.curve = ToneCurve::linear},
+                                  .exposure = {.mode = ExposureMode::metered, .to_light_s = 0.4f, .to_dark_s = 1.2f}};
+    const Camera camera = camera_above(6, 3);
+    const auto shown_after = [&](const Scene& scene, float seconds) {
+        const auto rendered = renderer->render(scene, camera, 16, 16, true, seconds);
+        EXPECT_TRUE(rendered) << rendered.error().text();
+        image = rendered->image;
+        return units::srgb_decode(static_cast<float>(value(8, 8)) / 255);
+    };
+    Scene scene = uniform_sky(100, display);
+    EXPECT_NEAR(shown_after(scene, 0), metered_value, 2e-3f) << "the first picture has nothing to adapt from";
+    Sky sky = scene.sky();
+    sky.luminance_nits = glm::vec3(200);
+    scene.set_sky(sky);
+    EXPECT_NEAR(shown_after(scene, 0), 2 * metered_value, 3e-3f) << "at first as exposed before";
+    const float remaining = std::exp(-1.0f);  // of one stop, after one time constant
+    EXPECT_NEAR(shown_after(scene, 0.4f), metered_value * std::exp2(remaining), 2e-3f);
+    for (int i = 0; i < 20; ++i) shown_after(scene, 0.1f);
+    EXPECT_NEAR(shown_after(scene, 0.1f), metered_value, 2e-3f) << "settled";
+    sky.luminance_nits = glm::vec3(100);
+    scene.set_sky(sky);
+    shown_after(scene, 0);
+    EXPECT_NEAR(shown_after(scene, 1.2f), metered_value * std::exp2(-remaining), 2e-3f) << "slower to dark";
+}
+
+TEST_F(Live, WhatIsShownIsWhatTheFilesShow) {
+    for (const ToneCurve curve : {ToneCurve::linear, ToneCurve::hable, ToneCurve::reinhard, ToneCurve::aces, ToneCurve::agx,
+                                  ToneCurve::neutral}) {
+        const DisplaySettings display{.tone = {.curve = curve}, .exposure = {.mode = ExposureMode::key, .compensation_ev = 1},
+                                      .white_balance = glm::vec2(0.40f, 0.39f)};
+        const Scene scene = uniform_sky(50, display);
+        frame(scene, camera_above(6, 3));
+        Image light(16, 16, 3, 50.0f);
+        const float ev100 = convert::exposure_ev100(display.exposure, convert::meter(light, display.exposure), 0);
+        const Image shown = convert::displayed(light, display, ev100);
+        const auto bytes = device->read_back_as<std::uint8_t>(*image);
+        ASSERT_TRUE(bytes);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR((*bytes)[4 * (8 * 16 + 8) + c], 255 * shown.at(8, 8, c), 1.01f) << static_cast<int>(curve);
+    }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/editor/display_panel.h"
 #include "scene/render_limits.h"
 
 namespace heliodon::editor {
@@ -213,6 +214,7 @@ void draw_panels(Scene& scene, ViewState& view, const FrameReport& report) {
         if (ImGui::CollapsingHeader("Materials", ImGuiTreeNodeFlags_DefaultOpen)) materials_panel(scene);
         if (ImGui::CollapsingHeader("Global illumination", ImGuiTreeNodeFlags_DefaultOpen))
             global_illumination_panel(scene);
+        if (ImGui::CollapsingHeader("Exposure and tone")) display_panel(scene);
         ImGui::PopItemWidth();
     }
     ImGui::End();

@@ -118,11 +118,11 @@ constexpr gpu::Access presented{VK_PIPELINE_STAGE_2_BOTTOM_OF_PIPE_BIT, VK_ACCES
 
 /// Renders the scene, copies it to the window's image, draws the overlay on top and shows it.
 Result<void> show_frame(Viewer& viewer, const Scene& scene, const ViewState& view, const gpu::Swapchain::Frame& frame,
-                        int& accumulated_frames) {
+                        float seconds, int& accumulated_frames) {
     auto commands = viewer.device->begin_commands("live frame");
     if (!commands) return tl::unexpected(commands.error());
     const VkExtent2D extent = viewer.swapchain.extent();
-    const auto live = viewer.renderer->render(scene, view.camera, static_cast<int>(extent.width), static_cast<int>(extent.height));
+    const auto live = viewer.renderer->render(scene, view.camera, static_cast<int>(extent.width), static_cast<int>(extent.height), true, seconds);
     if (!live) return tl::unexpected(live.error());
     accumulated_frames = live->accumulated_frames;
     commands->transition(*live->image, blit_source);
@@ -175,7 +175,7 @@ Result<void> run(Viewer& viewer, Scene& scene, ViewState& view) {
             if (auto resized = viewer.swapchain.resize(viewer.window.extent()); !resized) return resized;
             continue;
         }
-        if (auto shown = show_frame(viewer, scene, view, **frame, accumulated_frames); !shown) return shown;
+        if (auto shown = show_frame(viewer, scene, view, **frame, seconds, accumulated_frames); !shown) return shown;
     }
     return viewer.device->wait_idle();
 }
