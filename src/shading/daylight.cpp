@@ -32,33 +32,15 @@ void store(const DaylightCoefficients& coefficients, SkyData& sky) {
     for (std::size_t i = 0; i < coefficients.size(); ++i) sky.daylight[i] = vec4(vec3(coefficients[i]), 0);
 }
 
-/// A share of the even sky of `uniform` (values as the coefficients have them).
-DaylightCoefficients more_even(DaylightCoefficients c, const glm::dvec3& uniform, double share) {
-    c[0] *= 1 - share;
-    for (const std::size_t i : {2, 3, 5, 6, 7}) c[i] *= 1 - share;
-    c[2] += share * uniform;
-    return c;
-}
-
-/// The even night sky that gives this illuminance, white: X, Y, Z or Y, x, y.
-glm::dvec3 even_sky(std::uint32_t model, double illuminance) {
-    constexpr glm::dvec2 d65(0.3127, 0.3290);
-    const double y = illuminance / std::numbers::pi;
-    if (model == sky_model_preetham) return {y, d65.x, d65.y};
-    return {y * d65.x / d65.y, y, y * (1 - d65.x - d65.y) / d65.y};
-}
-
 /// What the dome of the sun on the horizon becomes with the sun below it. It has the illuminance that was measured from civil
-/// dusk on; between sunset and then the model's own goes over to that.
-DaylightCoefficients twilight(const DaylightCoefficients& sunset, double elevation, SkyData& sky) {
-    store(sunset, sky);
-    const double at_sunset = horizontal_illuminance(sky);
-    const double own = std::clamp(1 - elevation / civil_elevation, 0.0, 1.0);
-    const double wanted = twilight_illuminance(elevation) * std::pow(at_sunset / twilight_illuminance(0), own);
-    const double even = std::clamp(elevation / night_elevation, 0.0, 1.0);
-    DaylightCoefficients dome = more_even(sunset, even_sky(sky.model, at_sunset), even);
+/// dusk on; between sunset and then the model's own goes over to that. A growing share of it is an even white night.
+DaylightCoefficients twilight(DaylightCoefficients dome, double elevation, SkyData& sky) {
     store(dome, sky);
-    const double scale = wanted / horizontal_illuminance(sky);
+    const double at_sunset = horizontal_illuminance(sky);
+    const double own = std::clamp(1 - elevation / civil_elevation, 0.0, 1.0), even = std::clamp(elevation / night_elevation, 0.0, 1.0);
+    const double wanted = twilight_illuminance(elevation) * std::pow(at_sunset / twilight_illuminance(0), own);
+    sky.luminance = vec3(static_cast<float>(even * wanted / std::numbers::pi));
+    const double scale = (1 - even) * wanted / at_sunset;
     // Preetham's second and third values are chromaticities, which no dimming changes.
     const glm::dvec3 dimmed = sky.model == sky_model_preetham ? glm::dvec3(scale, 1, 1) : glm::dvec3(scale);
     for (const std::size_t i : {2, 3, 5, 6, 7}) dome[i] *= dimmed;
@@ -79,7 +61,7 @@ void set_daylight_sky(const Daylight& daylight, SkyData& sky) {
     sky.model = daylight.model;
     sky.horizon = daylight.model == sky_model_hosek ? 0.01f : 0.0f;
     sky.sun_direction = direction_from_azimuth(static_cast<float>(daylight.sun_azimuth), static_cast<float>(elevation), sky.north_rad);
-    sky.ground = vec3(0);
+    sky.luminance = sky.ground = vec3(0);
     DaylightCoefficients dome = daylight.model == sky_model_hosek ? hosek_coefficients(daylight.turbidity, daylight.ground_albedo, elevation)
                                                                  : preetham_coefficients(daylight.turbidity, elevation);
     if (daylight.sun_elevation < 0) dome = twilight(dome, daylight.sun_elevation, sky);

@@ -146,7 +146,9 @@ SHADING_CONST uint sky_model_overcast = 4u;  // and its traditional overcast sky
 SHADING_CONST uint sky_model_hosek = 5u;
 SHADING_CONST uint sky_model_preetham = 6u;
 struct SkyData {
-    vec3 luminance;  // constant: cd/m²; image: scale; cie: cd/m² where gradation and indicatrix are 1; overcast: zenith
+    // constant: cd/m²; image: scale; cie: cd/m² where gradation and indicatrix are 1; overcast: zenith; hosek, preetham: the
+    // even part, of a night
+    vec3 luminance;
     uint model;
     uint texture_index;
     float north_rad;

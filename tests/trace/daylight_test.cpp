@@ -75,10 +75,17 @@ TEST(CieSkies, SceneryIsLitAlikeWhetherTheSkyIsAFormulaOrAPicture) {
     EXPECT_NEAR(a.value, b.value, 3 * std::hypot(a.half_width_95, b.half_width_95) + 2e-4 * a.value);
 }
 
-TEST(CieSkies, AreSampledByTheDensityThatIsToldByChiSquare) {
-    for (const int type : {1, 4, 12, 15, 16}) {
+TEST(Skies, OfEveryFormulaAreSampledByTheDensityThatIsToldByChiSquare) {
+    std::vector<Sky> skies;
+    for (const int type : {1, 4, 12, 15, 16}) skies.push_back(cie_sky(type, 75, 35));
+    for (const float elevation : {60.0f, 3.0f, -8.0f})
+        for (const SkyModel model : {SkyModel::hosek, SkyModel::preetham}) {
+            skies.push_back(cie_sky(1, 75, elevation));
+            skies.back().model = model;
+        }
+    for (std::size_t type = 0; type < skies.size(); ++type) {
         Scene scene;
-        Sky sky = cie_sky(type, 75, 35);
+        Sky sky = skies[type];
         sky.north_rad = 0.4f;
         scene.set_sky(sky);
         convert::FlatScene flat;
