@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -20,14 +21,17 @@ public:
     [[nodiscard]] glm::vec4 sample(std::uint32_t index, glm::vec2 uv) const {
         if (index >= entries_.size() || !entries_[index].texels) return glm::vec4(1);
         const Entry& entry = entries_[index];
-        const float x = uv.x * static_cast<float>(entry.width), y = uv.y * static_cast<float>(entry.height);
-        if (!(std::abs(x) < 1e9f && std::abs(y) < 1e9f)) return texel(entry, 0, 0);
-        if (entry.nearest) return texel(entry, floor_to_int(x), floor_to_int(y));
+        if (!(std::abs(uv.x) < 1e9f && std::abs(uv.y) < 1e9f)) return texel(entry, 0);
+        const float x = along(uv.x, entry.width, entry.wrap_u), y = along(uv.y, entry.height, entry.wrap_v);
+        const auto row = [&](int i) { return static_cast<std::size_t>(wrapped(i, entry.height, entry.wrap_v)) * entry.width; };
+        const auto column = [&](int i) { return wrapped(i, entry.width, entry.wrap_u); };
+        if (entry.nearest) return texel(entry, row(floor_to_int(y)) + column(floor_to_int(x)));
         const int x0 = floor_to_int(x - 0.5f), y0 = floor_to_int(y - 0.5f);
         const float fx = x - 0.5f - static_cast<float>(x0), fy = y - 0.5f - static_cast<float>(y0);
-        const glm::vec4 top = glm::mix(texel(entry, x0, y0), texel(entry, x0 + 1, y0), fx);
-        const glm::vec4 bottom = glm::mix(texel(entry, x0, y0 + 1), texel(entry, x0 + 1, y0 + 1), fx);
-        return glm::mix(top, bottom, fy);
+        const std::size_t top = row(y0), bottom = row(y0 + 1);
+        const int left = column(x0), right = column(x0 + 1);
+        return glm::mix(glm::mix(texel(entry, top + left), texel(entry, top + right), fx),
+                        glm::mix(texel(entry, bottom + left), texel(entry, bottom + right), fx), fy);
     }
     /// Texels across and down at the level that `sample` reads; 1 × 1 where there is no such texture.
     [[nodiscard]] glm::ivec2 size(std::uint32_t index) const {
@@ -44,18 +48,25 @@ private:
         bool nearest = false;
     };
 
-    [[nodiscard]] static int floor_to_int(float x) { return static_cast<int>(std::floor(x)); }
+    [[nodiscard]] static int floor_to_int(float x) {
+        const int towards_zero = static_cast<int>(x);
+        return towards_zero - (x < static_cast<float>(towards_zero) ? 1 : 0);
+    }
+    /// A place on one axis in texels, brought to the first period: what is left for `wrapped` needs no division.
+    [[nodiscard]] static float along(float u, int size, Wrap wrap) {
+        if (wrap == Wrap::repeat) u -= static_cast<float>(floor_to_int(u));
+        if (wrap == Wrap::mirrored_repeat) u -= 2.0f * static_cast<float>(floor_to_int(0.5f * u));
+        if (wrap == Wrap::clamp_to_edge) u = std::clamp(u, 0.0f, 1.0f);
+        return u * static_cast<float>(size);
+    }
+    /// `i` at most one texel outside of the period.
     [[nodiscard]] static int wrapped(int i, int size, Wrap wrap) {
         if (i >= 0 && i < size) return i;
         if (wrap == Wrap::clamp_to_edge) return i < 0 ? 0 : size - 1;
-        const int period = wrap == Wrap::repeat ? size : 2 * size;
-        i %= period;
-        if (i < 0) i += period;
-        return i < size ? i : 2 * size - 1 - i;
+        if (wrap == Wrap::repeat) return i < 0 ? size - 1 : 0;
+        return i < 0 || i >= 2 * size ? 0 : 2 * size - 1 - i;
     }
-    [[nodiscard]] glm::vec4 texel(const Entry& entry, int x, int y) const {
-        const std::size_t index = static_cast<std::size_t>(wrapped(y, entry.height, entry.wrap_v)) * entry.width +
-                                  wrapped(x, entry.width, entry.wrap_u);
+    [[nodiscard]] glm::vec4 texel(const Entry& entry, std::size_t index) const {
         if (entry.format == TextureFormat::float32) {
             glm::vec4 value;
             std::memcpy(&value, entry.texels + 16 * index, 16);
