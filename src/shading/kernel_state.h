@@ -145,6 +145,7 @@ struct KernelFrame {
     uint distant_emitters;    // directional lights and the sky: first among the emitters, in no tree
     uint light_node_count;    // 0: emitters are selected by their `probability` alone
     uint tile_bits;           // pixels of squares of 2^tile_bits share a scrambling (kernel_tile_sampler.h); 0 to 4
+    uint branch_bits;         // paths leave their first surface in 2^branch_bits directions; 0 to 2
 };
 
 // -- the path
@@ -155,6 +156,16 @@ SHADING_CONST uint kernel_stage_shadow = 2u;   // a shadow ray is next, then wha
 
 // A ray that crosses more translucent surfaces than this is caught between coinciding ones.
 SHADING_CONST uint kernel_most_passes = 4096u;
+
+/// A direction in which a path leaves its first surface, drawn but not yet followed.
+struct PathBranch {
+    vec3 direction;
+    float scatter_pdf;  // per steradian, of any of the branches
+    vec3 throughput;
+    float eta_scale;
+    vec3 absorption;  // of the solid that it enters, 1/m
+    uint sample_reversed;
+};
 
 struct PathState {
     vec3 origin;  // of the next scatter ray
@@ -179,7 +190,19 @@ struct PathState {
     uint tile_seed;       // of the scrambling that the pixel shares with its tile
     uint place_reversed;  // the pixel's number in its tile, bit-reversed
     vec3 absorption;  // of the solid that the path is in, 1/m
+    float roulette;   // a path survives with this times its weight, or at any rate from 1 on
+    vec3 first_position;  // the surface that the branches leave, as kernel_scatter had it
+    uint branches_left;
+    vec3 first_error;
+    uint branches_begun;
+    vec3 first_geometric;
     float padding1;
+    vec3 first_light_side;
+    float padding2;
+    PathBranch branch0;  // the next; a stack, without an array for the sake of translations that have none
+    PathBranch branch1;
+    PathBranch branch2;
+    PathBranch branch3;
 };
 
 SHADING_END

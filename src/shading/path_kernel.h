@@ -76,7 +76,9 @@ SHADING_FN PathState path_begin_along(uint stream, uint sample_index, vec3 origi
     path.tile_seed = path.pixel_seed;
     path.place_reversed = 0u;
     path.absorption = vec3(0.0f);
-    path.padding1 = 0.0f;
+    path.roulette = 3.0f;  // of sensors; pictures' branches: kernel_next_branch
+    path.branches_left = 0u;
+    path.branches_begun = 0u;
     return path;
 }
 
@@ -148,124 +150,7 @@ SHADING_FN void kernel_add_visible_lights(SHADING_INOUT(PathState) path, float d
     }
 }
 
-// -- scattering
-
-/// What a solid leaves of light after `distance` metres: Beer & Lambert.
-SHADING_FN vec3 kernel_solid_transmittance(vec3 absorption, float distance) { return exp(absorption * -distance); }
-
-/// Where light sampling may look for light: on the shading normal's side, unless light also passes the surface.
-SHADING_FN vec3 kernel_light_side(SHADING_IN(Surface) surface, vec3 normal) {
-    return surface.transmission > 0.0f ? vec3(0.0f) : normal;
-}
-
-/// Makes the shadow ray to a light sample the next one; `arriving` is what reaches the path if nothing blocks it.
-SHADING_FN void kernel_aim_shadow(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric,
-                                  SHADING_IN(KernelLightSample) light, vec3 arriving) {
-    path.shadow_light = arriving;
-    path.shadow_origin = kernel_offset(position, error, geometric, light.direction);
-    path.shadow_direction = light.direction;
-    path.shadow_t_max = kernel_infinity;
-    if (light.distance < kernel_infinity) {
-        const vec3 segment = light.target - path.shadow_origin;
-        const float length_m = length(segment);
-        path.shadow_direction = segment / max(length_m, 1.0e-37f);
-        path.shadow_t_max = length_m * (1.0f - 1.0e-6f);  // the rounding of origin + t · direction
-    }
-    path.stage = kernel_stage_shadow;
-}
-
-SHADING_FN void kernel_sample_direct(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, vec3 normal,
-                                     SHADING_IN(Frame) frame, SHADING_IN(Surface) surface, SHADING_IN(BsdfLobes) lobes, vec3 wo,
-                                     float u_select, vec2 u) {
-    const KernelLightSample light = kernel_sample_emitters(position, kernel_light_side(surface, normal), u_select, u);
-    if (max_component(light.light) <= 0.0f) {
-        return;
-    }
-    const vec3 wi = to_local(frame, light.direction);
-    const float side = same_side(light.direction, geometric, wi.z);
-    if (side <= 0.0f) {
-        return;
-    }
-    const vec3 value = bsdf_evaluate_prepared(surface, lobes, wo, wi);
-    if (max_component(value) <= 0.0f) {
-        return;
-    }
-    float weight = 1.0f;
-    if (light.pdf > 0.0f) {
-        weight = power_heuristic(light.pdf, bsdf_pdf_prepared(surface, lobes, wo, wi));
-    }
-    vec3 arriving = path.throughput * value * light.light * weight;
-    if (is_extended(surface) && surface.inside != (wi.z < 0.0f)) {  // a light within the solid
-        arriving = arriving * kernel_solid_transmittance(surface.absorption, light.distance);
-    }
-    kernel_aim_shadow(path, position, error, geometric, light, arriving);
-}
-
-/// One scattering event: a light sample, whose shadow ray comes first, and a scattered ray. `geometric` is
-/// the side of the surface that `wo_world` is on.
-SHADING_FN void kernel_scatter(SHADING_INOUT(PathState) path, vec3 position, vec3 error, vec3 geometric, vec3 normal,
-                               SHADING_IN(Surface) surface, vec3 wo_world) {
-    const uint event = path.depth;
-    path.depth += 1u;
-    const bool last = kernel_frame().max_depth != 0u && path.depth >= kernel_frame().max_depth;
-    const Frame frame = surface_frame(surface, normal);
-    const vec3 wo = to_local(frame, wo_world);
-    path.stage = kernel_stage_done;
-    path.after_shadow = kernel_stage_done;
-    if (wo.z <= 0.0f) {
-        return;
-    }
-    const BsdfLobes lobes = bsdf_prepare(surface, wo);
-    // Which emitter, and which lobe: where there is one of each, nothing is to be chosen.
-    vec2 choices = vec2(0.0f);
-    if (kernel_frame().emitter_count > 1u || surface.model != material_model_lambert) {
-        choices = path_random_pair(path, event, 1u);
-    }
-    if (kernel_frame().emitter_count > 0u) {
-        kernel_sample_direct(path, position, error, geometric, normal, frame, surface, lobes, wo, choices.x,
-                             path_random_pair(path, event, 2u));
-    }
-    if (last && kernel_frame().scattered_emission == 0u) {
-        return;
-    }
-    const vec2 u = path_random_pair(path, event, 3u);
-    const BsdfSample scattered = bsdf_sample_prepared(surface, lobes, wo, vec3(u, choices.y));
-    if (scattered.pdf <= 0.0f || max_component(scattered.weight) <= 0.0f) {
-        return;
-    }
-    const vec3 direction = to_world(frame, scattered.direction);
-    if (same_side(direction, geometric, scattered.direction.z) <= 0.0f) {
-        return;
-    }
-    vec3 throughput = path.throughput * scattered.weight;
-    const float eta_scale = path.eta_scale * scattered.eta_scale;
-    // Russian roulette (Arvo & Kirk 1990), blind to the radiance scaling of refraction, which later leaving the medium
-    // undoes. Paths keep a third of the weight they set out with: of the thresholds from 1/4 to 1 and of starting at any
-    // event from the first to the eighth, this gives the least variance × rays in a Cornell box (docs/performance.md).
-    const float most = path.depth < 8u ? 1.0f : 0.98f;  // where nothing absorbs, paths end all the same
-    const float survival = min(3.0f * max_component(throughput) / eta_scale, most);
-    if (survival < 1.0f) {
-        if (path_random_first(path, event + 1u, 0u) >= survival) {
-            return;
-        }
-        throughput = throughput / survival;
-    }
-    // The shadow ray still carries the light of the event itself in shadow_light.
-    path.throughput = throughput;
-    if (is_extended(surface) && (surface.inside || scattered.transmitted)) {
-        path.absorption = surface.inside != scattered.transmitted ? surface.absorption : vec3(0.0f);
-    }
-    path.eta_scale = eta_scale;
-    path.scatter_pdf = scattered.pdf;
-    path.scatter_origin = position;
-    path.scatter_normal = kernel_light_side(surface, normal);
-    path.origin = kernel_offset(position, error, geometric, direction);
-    path.direction = direction;
-    path.after_shadow = kernel_stage_scatter;
-    if (path.stage == kernel_stage_done) {
-        path.stage = kernel_stage_scatter;
-    }
-}
+#include "shading/kernel_scatter.h"
 
 /// A path that measures illuminance in lux at `position` on a plane facing `normal`: the first event is
 /// scattering at a white Lambertian surface there, whose radiance is E/π.
@@ -276,6 +161,9 @@ SHADING_FN PathState path_begin_illuminance(uint stream, uint sample_index, vec3
     surface.base_color = vec3(1.0f);
     path.throughput = vec3(pi);
     kernel_scatter(path, position, vec3(0.0f), normal, normal, surface, normal);
+    if (path.stage == kernel_stage_done) {
+        kernel_next_branch(path);
+    }
     return path;
 }
 
@@ -370,7 +258,7 @@ SHADING_FN void kernel_take_surface_hit(SHADING_INOUT(PathState) path, SHADING_I
     kernel_scatter(path, point.position, point.error, geometric, normal, at.surface, wo);
 }
 
-SHADING_FN void path_take_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHit) hit) {
+SHADING_FN void kernel_take_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHit) hit) {
     if (path.stage == kernel_stage_shadow) {
         kernel_take_shadow_hit(path, hit);
         return;
@@ -387,6 +275,13 @@ SHADING_FN void path_take_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHi
     kernel_add_visible_lights(path, 2.0f * kernel_infinity);
     kernel_add_met(path, kernel_sky_radiance(path.direction), path.scatter_pdf > 0.0f ? kernel_sky_pdf(path.direction) : 0.0f);
     path.stage = kernel_stage_done;
+}
+
+SHADING_FN void path_take_hit(SHADING_INOUT(PathState) path, SHADING_IN(KernelHit) hit) {
+    kernel_take_hit(path, hit);
+    if (path.stage == kernel_stage_done) {
+        kernel_next_branch(path);
+    }
 }
 
 #endif

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
 #include <exception>
 #include <glm/gtc/matrix_access.hpp>
 
 #include "core/units.h"
 #include "trace/bidirectional_loop.h"
+#include "trace/branching.h"
 #include "trace/measure.h"
 #include "trace/render_loop.h"
 
@@ -43,6 +45,8 @@ Result<void> check_options(const PathOptions& options) {
         return fail("", fmt::format("expected a target error above 0, found {}", *options.target_error));
     if (options.target_error && options.integrator == Integrator::bidirectional)
         return fail("", "expected no target error with the bidirectional integrator, which samples all pixels alike");
+    if (options.branches != 0 && options.branches != 1 && options.branches != 2 && options.branches != 4)
+        return fail("", fmt::format("expected 1, 2 or 4 branches, or 0 for as many as pay, found {}", options.branches));
     if (options.max_depth < 0)
         return fail("", fmt::format("expected a depth of 0 (unlimited) or more, found {}", options.max_depth));
     if (options.seconds && !(*options.seconds > 0))
@@ -60,6 +64,17 @@ void set_camera(const Camera& camera, const PathOptions& options, shading::Kerne
     frame.camera_forward = -glm::vec3(glm::row(view, 2));
     frame.width = static_cast<std::uint32_t>(options.width);
     frame.height = static_cast<std::uint32_t>(options.height);
+}
+
+/// Bidirectional subpaths do not branch.
+trace::Branching branches_of(const PathOptions& options, const trace::CpuKernel& kernel, const trace::EmbreeScene& embree) {
+    trace::Branching branching;
+    if (options.integrator == Integrator::bidirectional) return branching;
+    if (options.branches > 0)
+        branching.bits = static_cast<std::uint32_t>(std::countr_zero(static_cast<unsigned>(options.branches)));
+    else
+        trace::run_on_threads(options.threads, [&] { branching = trace::choose_branching(kernel, embree); });
+    return branching;
 }
 
 }  // namespace
@@ -105,6 +120,7 @@ struct PathTracer::State {
         kernel.frame.sky_rows = emitters.sky_rows;
         kernel.frame.scattered_emission = emitters.scattered_emission ? 1 : 0;
         kernel.frame.sample_streams = 1;
+        kernel.frame.branch_bits = 0;
         kernel.frame.distant_emitters = emitters.distant_emitters;
         kernel.frame.light_node_count =
             options.light_tree ? static_cast<std::uint32_t>(emitters.light_nodes.size()) : 0u;
@@ -136,6 +152,8 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
         kernel.frame.sample_streams = trace::variance_streams;
     else if (options.blue_noise)
         kernel.frame.tile_bits = tile_bits;
+    const trace::Branching branching = branches_of(options, kernel, state_->embree);
+    kernel.frame.branch_bits = branching.bits;
     trace::EmissionTable emission;
     trace::AddSamples bidirectional;
     if (options.integrator == Integrator::bidirectional) {
@@ -147,6 +165,8 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
     auto picture = trace::render_picture(kernel, state_->embree, options, floor / units::exposure_scale(camera.ev100()),
                                          counted, progress, bidirectional);
     if (!picture) return picture;
+    counted.seconds += branching.seconds;
+    counted.rays += branching.rays;
     picture->ev100 = camera.ev100();
     picture->has_ev100 = true;
     if (statistics) *statistics = counted;

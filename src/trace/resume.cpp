@@ -126,6 +126,7 @@ RenderIdentity render_identity(const CpuKernel& kernel, const PathOptions& optio
             {"integrator", options.integrator == Integrator::bidirectional ? "bidirectional" : "path"},
             {"max-depth", fmt::format("{}", options.max_depth)},
             {"blue-noise", kernel.frame.tile_bits > 0 ? "yes" : "no"},
+            {"branches", fmt::format("{}", 1u << kernel.frame.branch_bits)},
             {"light-selection", options.light_tree ? "tree" : "flux"},
             {"environment", options.environment ? "yes" : "no"},
             {"target-error", options.target_error ? fmt::format("{}", *options.target_error) : "none"},

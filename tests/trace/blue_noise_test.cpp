@@ -74,6 +74,7 @@ Picture room(int samples, std::uint32_t seed, bool blue_noise, int max_depth) {
     options.samples_per_pixel = samples;
     options.seed = seed;
     options.blue_noise = blue_noise;
+    options.branches = 1;  // a path of four has the numbers of four samples
     options.max_depth = max_depth;
     return render(scene, looking({0, 1, 3.6f}, {0, 1, 0}, 36), options);
 }

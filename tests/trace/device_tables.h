@@ -110,7 +110,8 @@ inline KernelFrame small_room_frame(const EmitterTable& emitters) {
             .sample_streams = 1,
             .distant_emitters = emitters.distant_emitters,
             .light_node_count = static_cast<std::uint32_t>(emitters.light_nodes.size()),
-            .tile_bits = 4};
+            .tile_bits = 4,
+            .branch_bits = 1};
 }
 
 }  // namespace heliodon::tests
