@@ -13,6 +13,7 @@
 #include "passes/blend/blend.h"
 #include "passes/cull/cull.h"
 #include "passes/light_grid/light_grid_shared.h"
+#include "passes/shadow_cones/shadow_cones.h"
 #include "passes/tonemap/tonemap.h"
 #include "passes/visibility/visibility.h"
 #include "realtime/area_light.h"
@@ -25,6 +26,8 @@ namespace {
 // A map whose size no one stated is as large as the picture can tell, up to this.
 constexpr int largest_fitted_shadow_map = 2048;
 constexpr std::size_t frames_in_flight = 2;
+// Shadows of cones are no finer than voxels, but end at edges.
+constexpr std::uint32_t most_shadow_spacing = 2;  // pixels
 constexpr std::uint32_t fragments_per_pixel = 4;  // room for blended surfaces to begin with
 
 }  // namespace
@@ -135,8 +138,12 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
     inputs_.features = wanted_.features = gpu_scene_.features();
     wanted_.aov = sample.aov != shading::frame_aov_none;
     wanted_.cone_shadows = has_cone_shadows_;
-    if (lighting_.cone_shadows != has_cone_shadows_) voxels_.forget_passes();
+    wanted_.shadows_traced = has_cone_shadows_ && std::ranges::all_of(plan_.batches, [](const ShadowBatch& batch) {
+        return batch.light_count <= passes::most_lights_traced;
+    });
+    if (lighting_.cone_shadows != has_cone_shadows_ || lighting_.shadows_traced != wanted_.shadows_traced) voxels_.forget_passes();
     lighting_.cone_shadows = has_cone_shadows_;
+    lighting_.shadows_traced = wanted_.shadows_traced;
     wanted_.cone_traced = sample.cone_traced;
     wanted_.cone_spacing = sample.cone_traced ? 1u << static_cast<unsigned>(settings_.vct.resolution) : 1u;
     wanted_.volume = key_.volume;
@@ -236,7 +243,7 @@ Result<void> FrameRenderer::build_frame_graph() {
     auto visibility = add_visibility(graph, extent, lists);
     if (!visibility) return tl::unexpected(visibility.error());
     auto shaded = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, volume, extent,
-                                    {wanted_.aov, wanted_.cone_traced});
+                                    {wanted_.aov, wanted_.cone_traced, std::min(wanted_.cone_spacing, most_shadow_spacing)});
     if (!shaded) return tl::unexpected(shaded.error());
     const graph::ImageHandle picture = shaded->picture;
     if (wanted_.cone_traced) {

@@ -27,7 +27,7 @@ vec3 light_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, uint index, F
     const vec3 reflected = bsdf_evaluate_prepared(point.material.surface, lobes, wo, wi) *
                            same_side(arriving.direction, point.geometric, wi.z) * arriving.value;
     if (reflected == vec3(0.0f)) return vec3(0.0f);
-    return reflected * light_reaching(light, point.position, point.geometric, frame.shadow_filter);
+    return reflected * light_reaching(light, index, point.position, point.geometric, frame.shadow_filter);
 }
 
 // A sample picks lights by their grid cell, and of each four of these one by what it gives the surface itself.

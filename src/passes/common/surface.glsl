@@ -146,6 +146,11 @@ vec4 vertex_color_at(GeometryData geometry, TriangleHit hit) {
            fetch_vec4(geometry.color_offset, hit.index.z) * hit.barycentric.z;
 }
 
+vec3 hit_position(TriangleHit hit) { return hit.p0 + hit.edge1 * hit.barycentric.y + hit.edge2 * hit.barycentric.z; }
+vec3 outward_normal(InstanceData instance, TriangleHit hit) {
+    return hit.normal * (instance.determinant_sign * inversesqrt(max(dot(hit.normal, hit.normal), 1.0e-38f)));
+}
+
 /// `direction`: the pixel's ray, as long as FrameData has it.
 SurfacePoint resolve_surface(uint instance_index, uint primitive, FrameData frame, vec3 direction) {
     const InstanceData instance = instance_table[instance_index];
@@ -155,9 +160,9 @@ SurfacePoint resolve_surface(uint instance_index, uint primitive, FrameData fram
     if (has_textures) set_texture_gradients(material, geometry, hit, direction, frame.ray_dx, frame.ray_dy, frame.texture_gradient_scale);
 
     SurfacePoint point;
-    point.position = hit.p0 + hit.edge1 * hit.barycentric.y + hit.edge2 * hit.barycentric.z;
+    point.position = hit_position(hit);
     point.wo = -normalize(direction);
-    vec3 outward = hit.normal * (instance.determinant_sign * inversesqrt(max(dot(hit.normal, hit.normal), 1.0e-38f)));
+    const vec3 outward = outward_normal(instance, hit);
     const bool back = dot(outward, point.wo) < 0.0f;
     point.geometric = back ? -outward : outward;
 

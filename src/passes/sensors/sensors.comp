@@ -9,11 +9,12 @@ layout(set = 0, binding = 12, std430) buffer Sensors { SensorData sensors[]; };
 layout(push_constant) uniform Push { SensorConstants push; };
 
 /// Lights with an extent come here as one of their points, and the shadow grids move; the caller averages over many.
-vec3 illuminance_from(LightData light, vec3 position, vec3 normal) {
+vec3 illuminance_from(uint index, vec3 position, vec3 normal) {
+    const LightData light = shining_light(push.light_first + index);
     const LightSample arriving = scene_light_sample(light, position, vec2(0.5f));
     const vec3 unshadowed = arriving.value * max(dot(arriving.direction, normal), 0.0f);
     if (unshadowed == vec3(0.0f)) return unshadowed;
-    return unshadowed * light_reaching(light, position, normal, shadow_filter_free);
+    return unshadowed * light_reaching(light, index, position, normal, shadow_filter_free);
 }
 
 void main() {
@@ -23,7 +24,7 @@ void main() {
     const vec3 normal = sensors[index].normal;
     vec3 sum = vec3(0.0f);
     for (uint i = 0u; i < push.light_count; ++i)
-        sum += illuminance_from(shining_light(push.light_first + i), position, normal);
+        sum += illuminance_from(i, position, normal);
     if (push.sky_enabled != 0u) sum += sky_diffuse(normal) * pi;
     sensors[index].illuminance = sum;
 }

@@ -4,11 +4,12 @@
 #include "passes/common/lighting.glsl"
 #include "passes/common/visible_lights.glsl"
 #include "passes/cone_trace/cone_surface.glsl"
+#include "passes/shadow_cones/pixel_shadows.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 // Pictures of something else than radiance have a pipeline of their own, so that the common one stays small.
 layout(constant_id = 0) const bool draws_aov = false;
-layout(constant_id = 1) const bool cones_follow = false;
+layout(constant_id = 2) const bool cones_follow = false;
 layout(set = 0, binding = 8, std140) uniform Frame_ { FrameData frame; };
 layout(set = 0, binding = 12) uniform usampler2D visibility;
 layout(set = 0, binding = 13, rgba32f) uniform writeonly image2D contribution;
@@ -64,6 +65,7 @@ void main() {
             leave_surface(ivec2(pixel), ConeSurface(depth_m, point.geometric, point.frame.normal, lobes.alpha, lobes.coat_alpha,
                                                     cone_lobes(point.material.surface, lobes, effects)));
         }
+        if (shadows_traced) traced_shares = pixel_shares(ivec2(pixel), point.position, point.geometric, frame);
         value = vec4(value_of(point, wo, lobes, seed), 1.0f);
         if (!draws_aov && frame.batch == 0u)
             value.rgb += lights_seen(frame.position, -point.wo, distance(frame.position, point.position));

@@ -1,13 +1,23 @@
 #include "passes/shade/shade.h"
 
+#include "passes/shadow_cones/shadow_cones.h"
+
 namespace heliodon::passes {
 
 Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                          const LightingInputs& lighting, const Visibility& visibility, const ShadowMaps& shadow_maps,
                          const VolumeImages& volume, VkExtent2D extent, const ShadeOptions& options) {
     gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
+    graph::ImageHandle traced_shadows;
+    if (lighting.shadows_traced && !options.aov) {
+        auto traced = add_pixel_shadows(graph, pipelines, scene, lighting, visibility, volume, extent, options.shadow_spacing);
+        if (!traced) return tl::unexpected(traced.error());
+        traced_shadows = *traced;
+        constants[1] = options.shadow_spacing;
+        constants[17] = 1;
+    }
     constants[0] = options.aov ? 1 : 0;
-    constants[1] = options.cones_follow ? 1 : 0;
+    constants[2] = options.cones_follow ? 1 : 0;
     set_material_constants(constants, scene);
     set_light_constants(constants, scene);
     auto pipeline = pipelines.compute("passes/shade/shade.comp", constants);
@@ -25,13 +35,14 @@ Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const S
         "shade", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(visibility.ids, graph::Usage::sampled);
+            if (traced_shadows) pass.read(traced_shadows, graph::Usage::sampled);
             pass.read(shadow_maps.depth, graph::Usage::sampled);
             pass.read(shadow_maps.slope, graph::Usage::sampled);
             read_volume(pass, volume);
             for (const graph::ImageHandle written : {shaded.picture, shaded.places, shaded.albedos, shaded.lobes})
                 pass.write(written, graph::Usage::storage_write);
         },
-        [&scene, &lighting, visibility, shadow_maps, shaded, extent, shade = *pipeline](graph::PassContext& context) {
+        [&scene, &lighting, visibility, shadow_maps, traced_shadows, shaded, extent, shade = *pipeline](graph::PassContext& context) {
             const auto bindings = select_bindings(*shade, scene,
                                                   {{8, *lighting.frame},
                                                    {9, *lighting.shadow_views},
@@ -45,6 +56,7 @@ Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const S
                                                    {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
                                                    {23, *lighting.volume->occupancy},
                                                    {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
+                                                   {19, gpu::Binding(context.image(traced_shadows ? traced_shadows : visibility.ids), lighting.nearest)},
                                                    {13, context.image(shaded.picture)},
                                                    {14, context.image(shaded.places)},
                                                    {17, context.image(shaded.albedos)},

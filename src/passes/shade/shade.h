@@ -16,6 +16,7 @@ struct LightingInputs {
     const gpu::Buffer* visible_lights = nullptr;  ///< visible_lights.glsl: lights with an extent
     const VolumeInputs* volume = nullptr;         ///< lights with a cone_radius cast their shadows through it
     bool cone_shadows = false;                    ///< some light has one; pipelines are chosen by it
+    bool shadows_traced = false;                  ///< ahead, for pixels and voxels: few enough lights (passes/shadow_cones)
     const gpu::Buffer* light_grid = nullptr;      ///< light_grid.h: for picking among very many lights
 };
 
@@ -27,6 +28,7 @@ struct Shaded {
 struct ShadeOptions {
     bool aov = false;           ///< what FrameData::aov asks for instead of radiance
     bool cones_follow = false;  ///< surfaces are left for add_cone_trace()
+    std::uint32_t shadow_spacing = 1;  ///< pixels between those that trace shadow cones for their neighbours
 };
 /// Lights the visibility buffer in compute: the batch's lights with their shadows, emission, sky.
 [[nodiscard]] Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,

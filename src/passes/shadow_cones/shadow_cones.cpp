@@ -1,0 +1,76 @@
+#include "passes/shadow_cones/shadow_cones.h"
+
+#include <cstddef>
+
+namespace heliodon::passes {
+
+using graph::Usage;
+
+Result<graph::ImageHandle> add_pixel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                             const LightingInputs& lighting, const Visibility& visibility,
+                                             const VolumeImages& volume, VkExtent2D extent, std::uint32_t spacing) {
+    gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
+    constants[1] = spacing;
+    set_material_constants(constants, scene);
+    set_light_constants(constants, scene);
+    auto pipeline = pipelines.compute("passes/shadow_cones/shadow_pixels.comp", constants);
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    const VkExtent3D cells{(extent.width + spacing - 1) / spacing, (extent.height + spacing - 1) / spacing, 1};
+    const graph::ImageHandle traced =
+        graph.create_image({.name = "traced shadows", .format = VK_FORMAT_R32G32B32A32_UINT, .extent = cells});
+    graph.add_pass(
+        "shadow cones", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(visibility.ids, Usage::sampled);
+            read_volume(pass, volume);
+            pass.write(traced, Usage::storage_write);
+        },
+        [&scene, &lighting, visibility, traced, cells, shadows = *pipeline](graph::PassContext& context) {
+            const auto bindings = select_bindings(*shadows, scene,
+                                                  {{8, *lighting.frame},
+                                                   {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
+                                                   {13, context.image(traced)},
+                                                   {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
+                                                   {21, *lighting.volume->data},
+                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
+                                                   {23, *lighting.volume->occupancy}});
+            context.commands.dispatch_threads(*shadows, gpu::NoPushConstants{}, bindings, {cells.width, cells.height, 1});
+        });
+    return traced;
+}
+
+Result<graph::BufferHandle> add_voxel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                              const LightingInputs& lighting, const InjectCascade& cascade, const VolumeImages& images) {
+    gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
+    set_light_constants(constants, scene);
+    auto pipeline = pipelines.compute("passes/shadow_cones/shadow_voxels.comp", constants);
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    const graph::BufferHandle shares =
+        graph.create_buffer({"light shares of voxels", VkDeviceSize{cascade.surfaces.record_capacity} * sizeof(glm::uvec2)});
+    graph.add_pass(
+        "inject shadow cones", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(cascade.surfaces.numbers, Usage::storage_read);
+            pass.read(cascade.surfaces.numbers, Usage::indirect);
+            pass.read(cascade.surfaces.cells, Usage::storage_read);
+            pass.read(cascade.surfaces.records, Usage::storage_read);
+            read_volume(pass, images);
+            pass.write(shares, Usage::storage_write);
+        },
+        [&scene, &lighting, cascade, shares, shadows = *pipeline](graph::PassContext& context) {
+            const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
+            const auto bindings = select_bindings(*shadows, scene,
+                                                  {{16, numbers},
+                                                   {17, context.buffer(cascade.surfaces.cells)},
+                                                   {18, context.buffer(cascade.surfaces.records)},
+                                                   {19, context.buffer(shares)},
+                                                   {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
+                                                   {21, *lighting.volume->data},
+                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
+                                                   {23, *lighting.volume->occupancy}});
+            context.commands.dispatch_indirect(*shadows, *cascade.constants, bindings, numbers, offsetof(shading::VoxelHeader, record_groups));
+        });
+    return shares;
+}
+
+}  // namespace heliodon::passes

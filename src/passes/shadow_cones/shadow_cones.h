@@ -1,0 +1,20 @@
+#pragma once
+
+#include "passes/inject/inject.h"
+#include "passes/shade/shade.h"
+
+namespace heliodon::passes {
+
+/// The most lights of a batch whose shadow cones are traced ahead (light_visibility.glsl).
+inline constexpr std::uint32_t most_lights_traced = 4;
+
+/// RGBA32UI, of one pixel in `spacing`²: its depth and geometric normal, and what of each light reaches it.
+[[nodiscard]] Result<graph::ImageHandle> add_pixel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                                           const LightingInputs& lighting, const Visibility& visibility,
+                                                           const VolumeImages& volume, VkExtent2D extent, std::uint32_t spacing);
+/// Eight bytes a record: what of each light reaches the voxel's surfaces.
+[[nodiscard]] Result<graph::BufferHandle> add_voxel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                                            const LightingInputs& lighting, const InjectCascade& cascade,
+                                                            const VolumeImages& images);
+
+}  // namespace heliodon::passes
