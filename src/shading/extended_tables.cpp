@@ -198,11 +198,7 @@ void fill_stretched(std::span<float> table) {
                 }
             }
     };
-    // A number of threads, since these threads then take no other work: that might wait for the tables.
-    constexpr int most_threads = 64;
-    parallel_for(stretched_rows, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t j = begin; j < end; ++j) fill_row(j);
-    }, most_threads);
+    each_table_row(stretched_rows, fill_row);
 }
 
 /// 2/π ∫∫ E μ dμ dφ over a quarter turn of what the lookup returns.
@@ -248,6 +244,14 @@ void fill_sheen(std::span<float> table) {
 }
 
 }  // namespace
+
+void each_table_row(std::size_t rows, const std::function<void(std::size_t row)>& fill) {
+    // A number of threads, since these threads then take no other work: that might wait for the tables.
+    constexpr int most_threads = 64;
+    parallel_for(rows, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row) fill(row);
+    }, most_threads);
+}
 
 void fill_extended_tables(std::span<float> table) {
     fill_stretched(table);

@@ -180,7 +180,7 @@ float glass_average(std::span<const float> row, double alpha) {
 constexpr double smallest_mu = 1e-6;
 
 void fill_reflection(std::span<float> table, const Rules& rules) {
-    for (std::size_t j = 0; j < ggx_albedo_rows; ++j) {
+    each_table_row(ggx_albedo_rows, [&](std::size_t j) {
         const std::span row = table.subspan(2 * j * ggx_albedo_columns, 2 * ggx_albedo_columns);
         for (std::size_t i = 0; i < ggx_albedo_columns; ++i) {
             const double x = static_cast<double>(i) / (ggx_albedo_columns - 1);
@@ -193,12 +193,12 @@ void fill_reflection(std::span<float> table, const Rules& rules) {
         const glm::dvec2 average = reflection_average(row);
         table[ggx_albedo_averages + 2 * j] = static_cast<float>(average.x);
         table[ggx_albedo_averages + 2 * j + 1] = static_cast<float>(average.y);
-    }
+    });
 }
 
 void fill_specular_lobes(std::span<float> table, const Rules& rules) {
     constexpr double largest_mu = 1 - 1e-5;  // stands for the limit from the normal, where the angles' ratio is 0/0
-    for (std::size_t j = 0; j < specular_lobe_rows; ++j)
+    each_table_row(specular_lobe_rows, [&](std::size_t j) {
         for (std::size_t i = 0; i < specular_lobe_columns; ++i) {
             const double x = static_cast<double>(i) / (specular_lobe_columns - 1);
             const auto mu = static_cast<float>(std::clamp(x * x, smallest_mu, largest_mu));
@@ -207,6 +207,7 @@ void fill_specular_lobes(std::span<float> table, const Rules& rules) {
             table[entry] = cone.x;
             table[entry + 1] = cone.y;
         }
+    });
 }
 
 double fresnel_average(float eta) {
@@ -219,7 +220,7 @@ double fresnel_average(float eta) {
 }
 
 void fill_glass(std::span<float> table, const Rules& rules) {
-    for (std::size_t k = 0; k < 2 * glass_indices; ++k) {
+    each_table_row(2 * glass_indices, [&](std::size_t k) {
         const double root = glass_largest_f0_root * static_cast<double>(k % glass_indices) / (glass_indices - 1);
         const double dense = (1.0 + root) / (1.0 - root);
         const float eta = static_cast<float>(k < glass_indices ? dense : 1.0 / dense);
@@ -235,7 +236,7 @@ void fill_glass(std::span<float> table, const Rules& rules) {
             table[glass_average_start + k * glass_rows + j] = glass_average(row, alpha);
         }
         if (k < glass_indices) table[glass_fresnel_start + k] = static_cast<float>(fresnel_average(eta));
-    }
+    });
 }
 
 std::vector<float> compute_tables() {
