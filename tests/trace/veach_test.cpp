@@ -22,6 +22,7 @@ struct UnweightedKernel : CpuKernel {
     static float power_heuristic(float /*density*/, float /*other*/) { return 1; }
 
 #undef HELIODON_SHADING_PATH_KERNEL_H
+#undef HELIODON_SHADING_KERNEL_SCATTER_H
 #include "shading/path_kernel.h"
 };
 
@@ -122,7 +123,12 @@ protected:
         kernel.frame.scattered_emission = 1;
         return kernel;
     }
-    [[nodiscard]] Estimate combined() const { return estimate(kernel(), embree_); }
+    /// With so many scattered rays, as a power of 2, to a light sample.
+    [[nodiscard]] Estimate combined(shading::uint branch_bits = 0) const {
+        CpuKernel both = kernel();
+        both.frame.branch_bits = branch_bits;
+        return estimate(both, embree_);
+    }
     [[nodiscard]] Estimate by_lights_alone() const {
         UnweightedKernel alone(kernel());
         alone.frame.scattered_emission = 0;
@@ -179,6 +185,7 @@ TEST_F(VeachsLights, EachTechniqueAloneHasTheMeanOfBothTogetherWhichVaryLess) {
     const Estimate both = combined(), lights = by_lights_alone(), materials = by_materials_alone();
     expect_same_means("by lights alone", lights, both, 16);
     expect_same_means("by materials alone", materials, both, 10);
+    expect_same_means("four scattered rays to a light sample", combined(2), both, 18);
     if (std::getenv("HELIODON_VALIDATION_TABLE")) print_deviations(lights, materials, both);
 
     // A sample of both against two of the better one.
