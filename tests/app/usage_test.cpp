@@ -14,7 +14,7 @@ TEST_F(Usage, VersionIsPrinted) {
 TEST_F(Usage, HelpStandsOnStandardOutputForEveryCommand) {
     const Ended overview = run({"--help"});
     EXPECT_EQ(overview.code, 0);
-    for (const std::string command : {"view", "render", "measure", "compare", "bench", "info", "devices"}) {
+    for (const std::string command : {"view", "render", "measure", "compare", "bench", "sun", "info", "devices"}) {
         EXPECT_NE(overview.output.find(command), std::string::npos) << command;
         const Ended help = run({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;

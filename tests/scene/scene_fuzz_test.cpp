@@ -24,8 +24,11 @@ constexpr std::string_view every_block = R"({"heliodon": 1,
   "convert": {"shape_segments": 8}, "render": {"gi": "vct", "voxels": 128, "bounces": "inf", "vct": {"shadows": true, "cones": 18}},
   "animations": [{"name": "turn", "channels": [{"target": "nodes.room.rotate_deg", "times_s": [0, 1], "values": [[0,0,0],[0,90,0]]}]}]})";
 
+constexpr std::string_view daylight = R"({"heliodon": 1, "sky": {"model": "hosek", "turbidity": 3, "ground_albedo": 0.2, "latitude_deg": 59.9,
+  "longitude_deg": 10.7, "time": "2026-03-21T09:00:00+01:00", "north_deg": 10, "sun": {"disc": true, "angular_diameter_deg": 0.53}}})";
+
 std::vector<std::string> seeds() {
-    std::vector<std::string> texts{std::string(every_block)};
+    std::vector<std::string> texts{std::string(every_block), std::string(daylight)};
     const std::filesystem::path shared =
         std::getenv("HELIODON_SHARED") ? std::getenv("HELIODON_SHARED") : HELIODON_SOURCE_DIR "/../shared";
     if (std::filesystem::exists(shared / "scenes"))

@@ -10,7 +10,7 @@
 #include "shading/tone.h"
 SHADING_BEGIN
 
-SHADING_CONST uint agreement_values = 26u;  // vec4 a case
+SHADING_CONST uint agreement_values = 28u;  // vec4 a case
 
 SHADING_FN Surface agreement_surface(uint i) {
     vec4 a = random4(i, 0u, 0u, 1u);
@@ -28,6 +28,29 @@ SHADING_FN Surface agreement_surface(uint i) {
     s.clearcoat_roughness = 0.3f;
     s.model = i % 11u == 0u ? material_model_lambert : material_model_standard;
     s.inside = i % 4u == 0u;
+    return s;
+}
+/// Each formula in turn; coefficients of the size that daylight has.
+SHADING_FN SkyData agreement_sky(uint i) {
+    vec4 a = random4(i, 3u, 0u, 1u);
+    vec4 b = random4(i, 3u, 1u, 1u);
+    SkyData s;
+    s.model = sky_model_cie + i % 4u;
+    s.luminance = vec3(a);
+    s.horizon = i % 2u == 0u ? 0.01f : 0.0f;
+    s.indicatrix_e = b.x;
+    s.gradation_indicatrix = vec4(-a.x, -0.1f - a.y, 20.0f * a.z, -3.0f);
+    s.sun_direction = normalize(vec3(b.y - 0.5f, b.z, b.w - 0.5f));
+    s.ground = vec3(b);
+    s.daylight[0] = vec4(-1.1f * a.x);
+    s.daylight[1] = -0.1f - a;
+    s.daylight[2] = 0.5f + b;
+    s.daylight[3] = 8.0f * a;
+    s.daylight[4] = -4.0f * b;
+    s.daylight[5] = a;
+    s.daylight[6] = 0.2f * b;
+    s.daylight[7] = a;
+    s.daylight[8] = 0.3f + 0.5f * b;
     return s;
 }
 /// Of what a pipeline has only where shading_extended says so.
@@ -214,6 +237,12 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
     if (k == 24u || k == 25u) {
         BsdfSample sampled = bsdf_sample(agreement_extended_surface(i), wo, vec3(v));
         return k == 24u ? vec4(sampled.direction, sampled.eta_scale) : vec4(sampled.weight, sampled.pdf);
+    }
+    if (k == 26u) {
+        return vec4(sky_radiance(agreement_sky(i), sample_uniform_sphere(vec2(v)), vec3(1.0f)), v.z);
+    }
+    if (k == 27u) {
+        return vec4(into_gamut(rgb_from_xyz(vec3(v)), v.y), limb_darkening(v.w));
     }
     return v;
 }
