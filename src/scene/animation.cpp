@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "scene/scene.h"
+#include "scene/time_of_day.h"
 
 namespace heliodon {
 namespace {
@@ -129,6 +130,8 @@ void Scene::apply(const AnimationChannel& channel, double time_s) {
     const glm::vec4 value = keys.value_at(time_s);
     if (channel.property == AnimatedProperty::sky_luminance_nits) {
         apply_to_sky(not_negative(value));
+    } else if (channel.property == AnimatedProperty::sky_time) {
+        set_sky(sky_at(sky_, {channel.origin.unix_s + value.x, channel.origin.offset_min}));
     } else if (const NodeId* node = std::get_if<NodeId>(&channel.target)) {
         apply_to_node(*node, channel.property, value);
         apply_to_light(*node, channel.property, value);

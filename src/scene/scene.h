@@ -18,6 +18,7 @@
 #include "scene/handle.h"
 #include "scene/light.h"
 #include "scene/material.h"
+#include "scene/sun_position.h"
 
 namespace heliodon {
 
@@ -83,6 +84,8 @@ struct Sky {
     static constexpr float least_turbidity_hosek = 1, least_turbidity_preetham = 2, most_turbidity = 10;
     bool sun_disc = true;                 ///< hosek, preetham: the sun itself shines, as a disc that darkens to its limb
     float sun_angular_diameter_rad = glm::radians(0.53f);
+    std::optional<Place> place;     ///< from which the sun is seen, where the scene says so
+    std::optional<CivilTime> time;  ///< when
 
     [[nodiscard]] bool is_daylight() const { return model == SkyModel::hosek || model == SkyModel::preetham; }
 };
@@ -126,6 +129,7 @@ enum class AnimatedProperty : std::uint8_t {
     material_transmission,
     material_ior,
     sky_luminance_nits,
+    sky_time,
 };
 enum class Interpolation : std::uint8_t { step, linear, cubic };
 struct AnimationChannel {
@@ -134,6 +138,7 @@ struct AnimationChannel {
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times_s;  ///< increasing
     std::vector<float> values;   ///< cubic: in-tangent, value, out-tangent a key, as glTF
+    CivilTime origin;            ///< sky_time: `values` are seconds after it
 };
 /// Floats a value of `property` takes: 1, 3 or 4.
 [[nodiscard]] int component_count(AnimatedProperty property);

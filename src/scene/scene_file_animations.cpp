@@ -7,7 +7,7 @@
 namespace heliodon::scene_file {
 namespace {
 
-enum class Form { number, vector, number_or_vector, boolean, euler_deg };
+enum class Form { number, vector, number_or_vector, boolean, euler_deg, moment };
 
 /// What a scene file calls an animated value, and how it writes it.
 struct AnimatedKey {
@@ -45,6 +45,7 @@ constexpr std::array animated_keys{
     AnimatedKey{"materials", "transmission", material_transmission, Form::number, unit_interval},
     AnimatedKey{"materials", "ior", material_ior, Form::number, Range{.low = 1}},
     AnimatedKey{"sky", "luminance_nits", sky_luminance_nits, Form::number_or_vector, not_negative},
+    AnimatedKey{"sky", "time", sky_time, Form::moment},
 };
 
 /// The name between "table." and ".key" of `target`; empty where that is not its form.
@@ -91,7 +92,9 @@ const AnimatedKey& read_target(const JsonCursor& target, const Scene& scene, Ani
     const std::string text = target.string();
     bool known_form = false;
     for (const AnimatedKey& key : animated_keys) {
-        if (key.table == "sky" && text == "sky.luminance_nits") {
+        if (key.table == "sky" && text == fmt::format("sky.{}", key.key)) {
+            if (key.property == sky_time && !scene.sky().place)
+                target.refuse("a sky with latitude_deg and longitude_deg where its time moves");
             channel.property = key.property;
             return key;
         }
@@ -102,7 +105,7 @@ const AnimatedKey& read_target(const JsonCursor& target, const Scene& scene, Ani
     }
     target.refuse(known_form
                       ? "the name of something in the scene that has this value"
-                      : "nodes.NAME.…, cameras.NAME.…, materials.NAME.… or sky.luminance_nits with an animated value");
+                      : "nodes.NAME.…, cameras.NAME.…, materials.NAME.…, sky.luminance_nits or sky.time with an animated value");
 }
 
 Interpolation read_interpolation(ObjectReader& object, const AnimatedKey& key) {
@@ -112,8 +115,8 @@ Interpolation read_interpolation(ObjectReader& object, const AnimatedKey& key) {
         return Interpolation::step;
     }
     if (!interpolation) return Interpolation::linear;
-    // Tangents of Euler angles are no tangents of a rotation.
-    if (key.form == Form::euler_deg)
+    // Tangents of Euler angles are no tangents of a rotation; moments have none.
+    if (key.form == Form::euler_deg || key.form == Form::moment)
         return interpolation->one_of<Interpolation>({{"step", Interpolation::step}, {"linear", Interpolation::linear}});
     return interpolation->one_of<Interpolation>(
         {{"step", Interpolation::step}, {"linear", Interpolation::linear}, {"cubic", Interpolation::cubic}});
@@ -134,8 +137,20 @@ void append_vector(std::vector<float>& values, glm::vec3 vector) {
     values.insert(values.end(), {vector.x, vector.y, vector.z});
 }
 
-void append_value(std::vector<float>& values, const JsonCursor& cursor, const AnimatedKey& key, const Range& range) {
+/// Moments become seconds after the first of them.
+void append_moment(AnimationChannel& channel, const JsonCursor& cursor) {
+    const auto moment = parse_civil_time(cursor.name());
+    if (!moment) throw Refusal{cursor.path(), moment.error().message};
+    if (channel.values.empty()) channel.origin = *moment;
+    channel.values.push_back(static_cast<float>(moment->unix_s - channel.origin.unix_s));
+}
+
+void append_value(AnimationChannel& channel, const JsonCursor& cursor, const AnimatedKey& key, const Range& range) {
+    std::vector<float>& values = channel.values;
     switch (key.form) {
+        case Form::moment:
+            append_moment(channel, cursor);
+            break;
         case Form::number: {
             const float number = cursor.number(range);
             values.push_back(key.degrees ? glm::radians(number) : number);
@@ -171,7 +186,7 @@ AnimationChannel read_channel(const JsonCursor& cursor, const Scene& scene) {
     if (elements.size() != expected) values.refuse(fmt::format("a list of {}", expected));
     for (std::size_t i = 0; i < elements.size(); ++i) {
         const bool tangent = cubic && i % 3 != 1;
-        append_value(channel.values, elements[i], key, tangent ? any_number : key.range);
+        append_value(channel, elements[i], key, tangent ? any_number : key.range);
     }
     object.finish();
     return channel;

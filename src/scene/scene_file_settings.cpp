@@ -3,7 +3,7 @@
 
 #include "scene/render_limits.h"
 #include "scene/scene_file_parts.h"
-#include "scene/sun_position.h"
+#include "scene/time_of_day.h"
 
 namespace heliodon::scene_file {
 namespace {
@@ -41,22 +41,21 @@ bool read_sun(const JsonCursor& cursor, Sky& sky) {
     return azimuth.has_value();
 }
 
-/// Where the sun stands at the sky's place and time, if it says both; a part of them is refused if they are needed.
-std::optional<SunPosition> read_place_and_time(ObjectReader& object, bool needed) {
+/// The sky's place and time, where it has both of a place; a part of them is refused if they are needed.
+void read_place_and_time(ObjectReader& object, bool needed, Sky& sky) {
     constexpr Range latitude_deg{.low = -90, .high = 90}, longitude_deg{.low = -180, .high = 180};
     const auto time = object.find("time"), latitude = object.find("latitude_deg"), longitude = object.find("longitude_deg");
     Place place;
-    CivilTime moment;
     if (latitude) place.latitude_rad = glm::radians(double(latitude->number(latitude_deg)));
     if (longitude) place.longitude_rad = glm::radians(double(longitude->number(longitude_deg)));
+    if (latitude && longitude) sky.place = place;
     if (time) {
         const auto parsed = parse_civil_time(time->name());
         if (!parsed) throw Refusal{time->path(), parsed.error().message};
-        moment = *parsed;
+        sky.time = *parsed;
     }
     if (needed && (time || latitude || longitude))
         for (const char* key : {"latitude_deg", "longitude_deg", "time"}) (void)object.require(key);
-    return time && latitude && longitude ? std::optional(sun_position(place, moment.unix_s)) : std::nullopt;
 }
 
 /// What the sky's formulas use: kept for them, checked for others.
@@ -72,17 +71,17 @@ void read_daylight(ObjectReader& object, Sky& sky) {
     // Overcast types 1, 3 and 5 and the traditional one are the same all round.
     const bool turns = sky.cie_type != Sky::traditional_overcast && (sky.cie_type > 5 || sky.cie_type % 2 == 0);
     const bool stands = sun && read_sun(*sun, sky), needed = !stands && (sky.is_daylight() || (sky.model == SkyModel::cie && turns));
-    const auto position = read_place_and_time(object, needed);
+    read_place_and_time(object, needed, sky);
     if (!needed) return;
     const std::string& path = object.cursor().path();
-    if (!position)
+    if (!sky.place || !sky.time)
         throw Refusal{path, fmt::format("expected where the sun stands, on which the light of {} depends: \"sun\" with azimuth_deg and elevation_deg, or "
                                         "latitude_deg, longitude_deg and time; found neither",
                                         sky.is_daylight() ? "this model" : fmt::format("cie_type {}", sky.cie_type))};
-    if (sky.model == SkyModel::cie && position->elevation_rad < 0)
-        throw Refusal{path, fmt::format("expected a time by day with a cie sky, found the sun at an elevation of {:.2f}°", glm::degrees(position->elevation_rad))};
-    sky.sun_azimuth_rad = static_cast<float>(position->azimuth_rad);
-    sky.sun_elevation_rad = static_cast<float>(position->elevation_rad);
+    const double elevation_rad = sun_position(*sky.place, sky.time->unix_s).elevation_rad;
+    if (sky.model == SkyModel::cie && elevation_rad < 0)
+        throw Refusal{path, fmt::format("expected a time by day with a cie sky, found the sun at an elevation of {:.2f}°", glm::degrees(elevation_rad))};
+    sky = sky_at(sky, *sky.time);
 }
 
 SkyModel read_sky_model(ObjectReader& sky) {

@@ -152,6 +152,44 @@ TEST_F(Measure, EveryPointOfCie171IsMeasuredWithinItsConfidence) {
         }
 }
 
+TEST_F(Measure, SensorsOverADayAreTheSkysByTheHour) {
+    write("s.heliodon.json", R"({"heliodon": 1,
+        "sky": {"model": "hosek", "latitude_deg": 48, "longitude_deg": 11, "time": "2026-06-21T12:00+02:00"},
+        "sensors": [{"name": "ground", "type": "illuminance", "position": [0, 0, 0], "normal": [0, 1, 0]}]})");
+    const Ended csv = run({"measure", "s.heliodon.json", "--spp", "256", "--time-range", "2026-06-21T00:00+02:00..2026-06-21T12:00+02:00",
+                           "--step", "6h"});
+    ASSERT_EQ(csv.code, 0) << csv.error;
+    EXPECT_EQ(csv.output.rfind("time,name,type,value,r,g,b,unit,half_width_95\n2026-06-21T00:00:00+02:00,ground,illuminance,", 0), 0u) << csv.output;
+    EXPECT_EQ(std::count(csv.output.begin(), csv.output.end(), '\n'), 4);
+
+    const auto measured = [&](const std::string& time, std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"measure", "s.heliodon.json", "--spp", "4096", "--json"});
+        const Ended ended = run(arguments);
+        EXPECT_EQ(ended.code, 0) << ended.error;
+        const json read = json::parse(ended.output);
+        if (time.empty()) return double(read["sensors"][0]["value"]);
+        for (const json& moment : read["times"])
+            if (moment["time"] == time) return double(moment["sensors"][0]["value"]);
+        return -1.0;
+    };
+    const double alone = measured("", {"--time", "2026-06-21T08:00+02:00"});
+    const double in_range = measured("2026-06-21T08:00:00+02:00", {"--time-range", "2026-06-21T07:00+02:00..2026-06-21T09:00+02:00", "--step", "30min"});
+    EXPECT_GT(alone, 10000);
+    EXPECT_NEAR(in_range / alone, 1, 0.01) << "as a scene of that moment reads";
+}
+
+TEST_F(Measure, ASkyOfNoPlaceHasNoDay) {
+    write_scene(desk);
+    const std::vector<std::string> day{"measure", "s.heliodon.json", "--time-range", "2026-06-21T00:00Z..2026-06-21T12:00Z", "--step", "6h"};
+    const Ended nowhere = run(day);
+    EXPECT_EQ(nowhere.code, 1);
+    EXPECT_NE(nowhere.error.find("latitude_deg"), std::string::npos) << nowhere.error;
+    EXPECT_EQ(run({"measure", "s.heliodon.json", "--time-range", "2026-06-21T00:00Z..2026-06-21T12:00Z"}).code, 2) << "without a step";
+    EXPECT_EQ(run({"measure", "s.heliodon.json", "--time-range", "2026-06-22T00:00Z..2026-06-21T12:00Z", "--step", "1h"}).code, 2);
+    EXPECT_EQ(run({"measure", "s.heliodon.json", "--time-range", "today..tomorrow", "--step", "1h"}).code, 2);
+    EXPECT_EQ(run({"measure", "s.heliodon.json", "--time-range", "2026-06-21T00:00Z..2026-06-21T12:00Z", "--step", "1 hour"}).code, 2);
+}
+
 /// A white floor under a lamp, seen from above; around it nothing.
 class Probe : public Measure {
 protected:

@@ -311,21 +311,25 @@ const std::vector<BadFile>& bad_files() {
         {"WhiteByAnotherName", R"("render": {"tonemap": {"curve": "hable", "white": "paper"}})",
          R"($.render.tonemap.white: expected a number above 0 or "auto", found "paper")"},
         {"PercentilesTheWrongWayRound", R"("render": {"exposure": {"percentiles": [90, 10]}})",
-         "$.render.exposure.percentiles: expected a lower percentage before a higher one, found an array of 2 elements"},
+         "$.render.exposure.percentiles: expected a lower percentage before a higher one, found a list of 2", Schema::accepts},
         {"TwoWhites", R"("render": {"white_balance": {"temperature_k": 5000, "chromaticity": [0.3, 0.3]}})",
          R"($.render.white_balance: expected either "temperature_k" or "chromaticity")"},
         {"WhiteBeyondAnyLamp", R"("render": {"white_balance": {"temperature_k": 100}})",
-         "$.render.white_balance.temperature_k: expected a number from 1000 to 25000, found 100"},
+         "$.render.white_balance.temperature_k: expected a number at least 1000 and at most 25000, found 100"},
         {"ChromaticityOfNoColour", R"("render": {"white_balance": {"chromaticity": [0.8, 0.8]}})",
-         "$.render.white_balance.chromaticity: expected x and y that add up to 1 at most, found an array of 2 elements"},
+         "$.render.white_balance.chromaticity: expected x and y that add up to 1 at most, found a list of 2", Schema::accepts},
         {"TooFewSegments", R"("convert": {"shape_segments": 2})",
          "$.convert.shape_segments: expected a whole number from 3 to 1024, found 2"},
         {"UnknownPrecision", R"("convert": {"vertex_precision": "half"})",
          "$.convert.vertex_precision: expected one of \"full\", \"compact\", found \"half\""},
 
         {"UnknownTarget", channel(R"("target": "nodes.n.colour", "times_s": [0], "values": [0])"),
-         "$.animations[0].channels[0].target: expected nodes.NAME.…, cameras.NAME.…, materials.NAME.… or "
-         "sky.luminance_nits with an animated value, found \"nodes.n.colour\""},
+         "$.animations[0].channels[0].target: expected nodes.NAME.…, cameras.NAME.…, materials.NAME.…, "
+         "sky.luminance_nits or sky.time with an animated value, found \"nodes.n.colour\""},
+        {"TimeOfASkyNowhere", channel(R"("target": "sky.time", "times_s": [0], "values": ["2026-03-21T09:00Z"])"),
+         "$.animations[0].channels[0].target: expected a sky with latitude_deg and longitude_deg where its time moves, found "
+         "\"sky.time\"",
+         Schema::accepts},
         {"TargetOfNobody", channel(R"("target": "nodes.x.scale", "times_s": [0], "values": [1])"),
          "$.animations[0].channels[0].target: expected the name of something in the scene that has this value, found "
          "\"nodes.x.scale\"",

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "app/cli/terminal.h"
 #include "core/image_io.h"
 #include "realtime/renderer.h"
+#include "scene/time_of_day.h"
 #include "trace/path_tracer.h"
 
 namespace heliodon::cli {
@@ -25,6 +27,8 @@ struct MeasureOptions {
     int samples = 4096;
     std::optional<double> target_error;
     std::string false_colour;  ///< file
+    std::optional<TimeRange> times;
+    std::optional<double> step_s;
     int max_depth = 0;
     std::uint32_t seed = 0;
     bool no_environment = false;
@@ -35,30 +39,35 @@ struct MeasureOptions {
 
 using Readings = std::vector<SensorReading>;
 
-Result<Readings> measure_with_paths(const Scene& scene, const MeasureOptions& options) {
-    PathTracer tracer;
-    if (auto updated = tracer.update(scene); !updated) return tl::unexpected(updated.error());
+/// What an engine reads of a scene, which may have changed since the last call.
+using Measuring = std::function<Result<Readings>(const Scene&, const Progress&)>;
+
+Measuring measuring_with_paths(const MeasureOptions& options) {
     PathOptions path;
     path.samples_per_pixel = options.samples;
     path.target_error = options.target_error;
     path.max_depth = options.max_depth;
     path.seed = options.seed;
     path.environment = !options.no_environment;
-    ProgressBar bar("measure");
-    return tracer.measure(scene, path, bar.callback());
+    return [path, tracer = std::make_shared<PathTracer>()](const Scene& scene, const Progress& progress) -> Result<Readings> {
+        if (auto updated = tracer->update(scene); !updated) return tl::unexpected(updated.error());
+        return tracer->measure(scene, path, progress);
+    };
 }
 
-Result<Readings> measure_in_real_time(Scene& scene, const MeasureOptions& options) {
-    apply_gi_options(options.gi, options.scene, scene);
+Result<Measuring> measuring_in_real_time(const Scene& scene, const MeasureOptions& options) {
     warn_without_effect(options.gi, scene);
-    auto renderer = RealtimeRenderer::create(options.device);
-    if (!renderer) return tl::unexpected(renderer.error());
-    if (auto updated = renderer->update(scene); !updated) return tl::unexpected(updated.error());
+    auto created = RealtimeRenderer::create(options.device);
+    if (!created) return tl::unexpected(created.error());
     RealtimeOptions realtime;
     realtime.seed = options.seed;
     realtime.environment = !options.no_environment;
     realtime.gi = options.max_depth == 1 ? "none" : scene.render_settings().gi;
-    return renderer->measure(scene, realtime);
+    return [realtime, renderer = std::make_shared<RealtimeRenderer>(std::move(*created))](const Scene& changed,
+                                                                                       const Progress&) -> Result<Readings> {
+        if (auto updated = renderer->update(changed); !updated) return tl::unexpected(updated.error());
+        return renderer->measure(changed, realtime);
+    };
 }
 
 const char* type_name(SensorType type) {
@@ -68,7 +77,7 @@ const char* unit(SensorType type) {
     return type == SensorType::illuminance ? "lux" : "cd/m2";
 }
 
-std::string as_json(const Readings& readings) {
+nlohmann::json sensors_as_json(const Readings& readings) {
     nlohmann::json sensors = nlohmann::json::array();
     for (const SensorReading& reading : readings) {
         nlohmann::json sensor{{"name", reading.name},
@@ -80,9 +89,12 @@ std::string as_json(const Readings& readings) {
         if (reading.in_grid) sensor["position"] = {reading.position.x, reading.position.y, reading.position.z};
         sensors.push_back(std::move(sensor));
     }
-    // Names come from the command line too (--set), in any encoding.
-    return nlohmann::json{{"sensors", std::move(sensors)}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-           "\n";
+    return sensors;
+}
+
+/// Names come from the command line too (--set), in any encoding.
+std::string as_text(const nlohmann::json& json) {
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 /// A field as RFC 4180 quotes it.
@@ -93,17 +105,50 @@ std::string csv_field(const std::string& text) {
     return quoted + "\"";
 }
 
-/// Where a scene has grids, the points' places stand at the end of each line.
-std::string as_csv(const Readings& readings) {
-    const bool grids = std::any_of(readings.begin(), readings.end(), [](const SensorReading& r) { return r.in_grid; });
-    std::string text = fmt::format("name,type,value,r,g,b,unit,half_width_95{}\n", grids ? ",x,y,z" : "");
+bool has_grid(const Readings& readings) {
+    return std::any_of(readings.begin(), readings.end(), [](const SensorReading& r) { return r.in_grid; });
+}
+
+/// Where a scene has grids, the points' places stand at the end of each line; `times`: the moment at its beginning.
+std::string csv_header(const Readings& readings, bool times) {
+    return fmt::format("{}name,type,value,r,g,b,unit,half_width_95{}\n", times ? "time," : "", has_grid(readings) ? ",x,y,z" : "");
+}
+std::string as_csv(const Readings& readings, const std::string& time = {}) {
+    const bool grids = has_grid(readings);
+    std::string text;
     for (const SensorReading& r : readings) {
+        if (!time.empty()) text += time + ",";
         text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.4g}", csv_field(r.name), type_name(r.type), r.value, r.rgb.x,
                             r.rgb.y, r.rgb.z, unit(r.type), r.half_width_95);
         if (grids) text += fmt::format(",{:.9g},{:.9g},{:.9g}", r.position.x, r.position.y, r.position.z);
         text += "\n";
     }
     return text;
+}
+
+/// The sensors at each moment of a range, printed as they come.
+Result<void> measure_over_time(Scene& scene, const MeasureOptions& options, const Measuring& measuring) {
+    if (!scene.sky().place)
+        return fail(options.scene.path, "expected a sky with latitude_deg and longitude_deg for --time-range, found none");
+    const std::vector<CivilTime> moments = moments_by_step(options.times->first, options.times->last, *options.step_s);
+    ProgressBar bar("measure");
+    const Progress progress = bar.callback();
+    nlohmann::json by_time = nlohmann::json::array();
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+        scene.set_sky(sky_at(scene.sky(), moments[i]));
+        if (options.no_environment) put_out_sun(scene);
+        auto readings = measuring(scene, [](double) { return !interrupted(); });
+        if (interrupted() || (progress && !progress(static_cast<double>(i + 1) / static_cast<double>(moments.size()))))
+            return fail("", "interrupted");
+        if (!readings) return tl::unexpected(readings.error());
+        const std::string time = to_iso8601(moments[i]);
+        if (options.json) {
+            by_time.push_back({{"time", time}, {"sensors", sensors_as_json(*readings)}});
+            continue;
+        }
+        if (auto printed = print((i == 0 ? csv_header(*readings, true) : "") + as_csv(*readings, time)); !printed) return printed;
+    }
+    return options.json ? print(as_text({{"times", std::move(by_time)}})) : Result<void>{};
 }
 
 Result<void> write_false_colour(const std::string& path, const Scene& scene, const Readings& readings) {
@@ -120,6 +165,10 @@ void check_together(const MeasureOptions& options) {
         throw CLI::ValidationError(options.gi.gi.empty() ? "--voxels" : "--gi", "expected with --engine realtime");
     if (options.engine == Engine::realtime && options.target_error)
         throw CLI::ValidationError("--target-error", "expected with --engine path");
+    if (options.times.has_value() != options.step_s.has_value())
+        throw CLI::ValidationError(options.times ? "--step" : "--time-range", "expected --time-range and --step together");
+    if (options.times && !options.false_colour.empty())
+        throw CLI::ValidationError("--false-colour", "expected one moment, found --time-range");
     if (!options.false_colour.empty() && !is_display_format(options.false_colour))
         throw CLI::ValidationError("--false-colour", "expected a .png or .jpg file, found \"" + options.false_colour + "\"");
 }
@@ -136,13 +185,17 @@ Result<void> measure(const MeasureOptions& options) {
     scene->sensors().each([&](SensorId, const Sensor& sensor) { has_grid = has_grid || sensor.grid; });
     if (!options.false_colour.empty() && !has_grid)
         return fail(options.scene.path, "expected a grid of sensors to draw in false colour, found none");
-    auto readings =
-        options.engine == Engine::path ? measure_with_paths(*scene, options) : measure_in_real_time(*scene, options);
+    if (options.engine == Engine::realtime) apply_gi_options(options.gi, options.scene, *scene);
+    auto measuring = options.engine == Engine::path ? measuring_with_paths(options) : measuring_in_real_time(*scene, options);
+    if (!measuring) return tl::unexpected(measuring.error());
+    if (options.times) return measure_over_time(*scene, options, *measuring);
+    ProgressBar bar("measure");
+    auto readings = (*measuring)(*scene, bar.callback());
     if (interrupted()) return fail("", "interrupted");
     if (!readings) return tl::unexpected(readings.error());
     if (!options.false_colour.empty())
         if (auto written = write_false_colour(options.false_colour, *scene, *readings); !written) return written;
-    return print(options.json ? as_json(*readings) : as_csv(*readings));
+    return print(options.json ? as_text({{"sensors", sensors_as_json(*readings)}}) : csv_header(*readings, false) + as_csv(*readings));
 }
 
 }  // namespace
@@ -161,6 +214,12 @@ Action declare_measure(CLI::App& command) {
         ->check(check_positive);
     command.add_option("--false-colour", options->false_colour,
                        "Draw the scene's grids with iso-lines and a legend into this PNG or JPEG");
+    command.add_option_function<std::string>(
+        "--time-range", [options = options.get()](const std::string& text) { options->times = read_time_range(text); },
+        "FIRST..LAST, two moments as ISO 8601: the sensors at each --step from the one to the other");
+    command.add_option_function<std::string>(
+        "--step", [options = options.get()](const std::string& text) { options->step_s = read_duration(text); },
+        "With --time-range: 30s, 15min, 1h or 1d");
     command.add_option("--max-depth", options->max_depth, "Scattering events, 1 = direct light; default unlimited")
         ->check(check_not_negative);
     command.add_option("--seed", options->seed, "Seed of the samples")->check(check_not_negative);

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "scene/civil_time.h"
 #include "scene/render_limits.h"
 
 namespace heliodon::cli {
@@ -101,6 +102,29 @@ FalseColourRange read_false_colour(const std::string& text) {
             return {*low, *high, logarithmic};
     }
     refuse("--false-colour", "MIN:MAX or MIN:MAX:log in cd/m2, MIN below MAX and not below 0 (log: above 0)", text);
+}
+
+TimeRange read_time_range(const std::string& text) {
+    const std::size_t dots = text.find("..");
+    if (dots == std::string::npos) refuse("--time-range", "FIRST..LAST, two moments as ISO 8601", text);
+    const auto moment = [](const std::string& part) {
+        const auto time = parse_civil_time(part, "--time-range");
+        if (!time) throw CLI::ValidationError(time.error().text());
+        return *time;
+    };
+    const TimeRange range{moment(text.substr(0, dots)), moment(text.substr(dots + 2))};
+    if (range.last.unix_s < range.first.unix_s) refuse("--time-range", "FIRST not after LAST", text);
+    return range;
+}
+
+double read_duration(const std::string& text) {
+    static constexpr std::pair<std::string_view, double> units[] = {{"min", 60}, {"h", 3600}, {"d", 86400}, {"s", 1}};
+    for (const auto& [unit, seconds] : units) {
+        if (!text.ends_with(unit)) continue;
+        const auto number = read_number<double>(std::string_view(text).substr(0, text.size() - unit.size()));
+        if (number && std::isfinite(*number) && *number > 0) return *number * seconds;
+    }
+    refuse("--step", "a duration above 0 with its unit: 30s, 15min, 1h or 1d", text);
 }
 
 ProbedPixel read_pixel(const std::string& text) {

@@ -35,6 +35,13 @@ struct FrameRange {
 [[nodiscard]] ToneCurve read_tone_curve(const std::string& text);
 /// `MIN:MAX`, 0 ≤ MIN < MAX, or `MIN:MAX:log`, 0 < MIN.
 [[nodiscard]] FalseColourRange read_false_colour(const std::string& text);
+struct TimeRange {
+    CivilTime first, last;
+};
+/// `A..B`, two ISO 8601 moments, B not before A.
+[[nodiscard]] TimeRange read_time_range(const std::string& text);
+/// A duration in seconds: a number with s, min, h or d.
+[[nodiscard]] double read_duration(const std::string& text);
 /// `X,Y` of a pixel.
 [[nodiscard]] ProbedPixel read_pixel(const std::string& text);
 /// Accepts the kinds of global illumination that this version has: none, vct.

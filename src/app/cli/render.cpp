@@ -17,6 +17,7 @@
 #include "app/cli/terminal.h"
 #include "core/image_io.h"
 #include "realtime/renderer.h"
+#include "scene/time_of_day.h"
 #include "trace/path_tracer.h"
 
 namespace heliodon::cli {
@@ -47,6 +48,7 @@ struct RenderOptions {
     std::string stats;
     bool json = false;
     std::optional<FrameRange> frames;
+    std::optional<TimeRange> times;
     double fps = 24;
     int frames_timed = 0;
 };
@@ -250,6 +252,7 @@ void check_together(const RenderOptions& options) {
     if (options.resume && !resumable_output(options))
         throw CLI::ValidationError("--resume", options.frames ? "expected one picture, found --frames"
                                                               : "expected an .exr output to go on from");
+    if (options.times && !options.frames) throw CLI::ValidationError("--time-range", "expected with --frames");
     if (!options.probes.empty() && options.frames)
         throw CLI::ValidationError("--probe", "expected one picture, found --frames");
     for (const ProbedPixel pixel : options.probes)
@@ -326,6 +329,8 @@ Result<void> render(const RenderOptions& options) {
         apply_gi_options(options.gi, options.scene, *scene);
         warn_without_effect(options.gi, *scene);
     }
+    if (options.times && !scene->sky().place)
+        return fail(options.scene.path, "expected a sky with latitude_deg and longitude_deg for --time-range, found none");
     apply_display_options(options.display, *scene);
     check_aovs(options, *scene);
     auto renderer = create_renderer(options);
@@ -333,8 +338,14 @@ Result<void> render(const RenderOptions& options) {
 
     json statistics = json::object();
     Exposure exposure;
+    std::vector<CivilTime> moments;
+    if (options.times) moments = moments_between(options.times->first, options.times->last, range.last - range.first + 1);
     for (int frame = range.first; frame <= range.last; ++frame) {
         if (options.frames) scene->apply_animations(frame / options.fps);
+        if (options.times) {
+            scene->set_sky(sky_at(scene->sky(), moments[frame - range.first]));
+            if (options.no_environment) put_out_sun(*scene);
+        }
         if (auto done = render_frame(**renderer, *scene, options, frame, exposure, statistics); !done) return done;
     }
     if (options.json)
@@ -412,6 +423,9 @@ void declare_picture_options(CLI::App& command, RenderOptions& options) {
     command.add_option_function<std::string>(
         "--frames", [&](Text text) { options.frames = read_frames(text); },
         "FIRST..LAST of the animation, one numbered output each (### in its name)");
+    command.add_option_function<std::string>(
+        "--time-range", [&](Text text) { options.times = read_time_range(text); },
+        "With --frames: FIRST..LAST, two moments as ISO 8601 that the frames' sky goes through");
     command.add_option("--fps", options.fps, "Frames a second of the animation; default 24")
         ->check(check_positive);
     command.add_option("--stats", options.stats, "Write the numbers of the run to this JSON file");
