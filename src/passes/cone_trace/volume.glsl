@@ -93,7 +93,6 @@ const float least_step = 1.0e-3f;
 /// A cone on its way, in finest voxels. Each axis is walked forward: where the cone goes backward, in the lattice's mirror
 /// image. The lattice is as wide as the widest cascade, whose voxels of every level mirror onto themselves.
 struct ConeWalk {
-    vec3 origin, direction;  // in the lattice
     vec3 start, slope, inverse;
     bvec3 backward;
     float wide;        // edge of the lattice
@@ -102,13 +101,10 @@ struct ConeWalk {
     vec3 look;         // of a layer, from look to look
     vec3 edge;         // of each axis' layers
     vec3 next;         // way to its next look
-    uvec3 facing;      // where in an emptiness each axis' faces stand that look against the cone
 };
 
 ConeWalk begin_walk(vec3 origin, vec3 direction, float tan_half_angle, float reach) {
     ConeWalk walk;
-    walk.origin = origin;
-    walk.direction = direction;
     walk.wide = (nested ? exp2(float(volume.cascades - 1u)) : 1.0f) * float(volume.size);
     walk.backward = lessThan(direction, vec3(0.0f));
     walk.start = mix(origin, walk.wide - origin, walk.backward);
@@ -127,9 +123,12 @@ ConeWalk begin_walk(vec3 origin, vec3 direction, float tan_half_angle, float rea
     walk.edge = vec3(nested ? exp2(level_holding(origin + direction * walk.begin)) : 1.0f);
     const vec3 layer = floor((walk.start + walk.slope * walk.begin) / walk.edge);
     walk.next = max(((layer + 0.5f * walk.look) * walk.edge - walk.start) * walk.inverse, vec3(walk.begin));
-    walk.facing = emptiness_bits * (uvec3(0u, 2u, 4u) + uvec3(not(walk.backward)));
     return walk;
 }
+
+vec3 walked(ConeWalk walk, float t) { return walk.start + walk.slope * t; }
+/// Where that is in the lattice.
+vec3 place(ConeWalk walk, vec3 walked) { return mix(walked, walk.wide - walked, walk.backward); }
 
 float coarsest_edge(ConeWalk walk) { return 0.5f * walk.wide; }  // of the level before the last
 
@@ -166,12 +165,15 @@ void leave_cascade(inout ConeWalk walk, Layer layer) {
     go_on(walk, layer.axis, outer_edge, ((outer + 0.5f) * outer_edge - layer.start) * layer.inverse);
 }
 
-/// Twice the powers of two that are at most v, of its exponents' bits.
+// Powers of two by the bits of their exponents.
+float inverse_power(float power) { return uintBitsToFloat(0x7f000000u - floatBitsToUint(power)); }
+vec3 inverse_power(vec3 power) { return uintBitsToFloat(0x7f000000u - floatBitsToUint(power)); }
+/// Twice the powers of two that are at most v.
 vec3 twice_power_below(vec3 v) { return uintBitsToFloat((floatBitsToUint(v) & 0x7f800000u) + 0x00800000u); }
 
 /// Where the cone leaves the texel of edge `edge` that holds it at `t`, a little past the border.
 float leaves_texel(ConeWalk walk, float edge, float t) {
-    const vec3 leaves = ((floor((walk.start + walk.slope * t) / edge) + 1.0f + least_step) * edge - walk.start) * walk.inverse;
+    const vec3 leaves = ((floor(walked(walk, t) * inverse_power(edge)) + 1.0f + least_step) * edge - walk.start) * walk.inverse;
     return min(leaves.x, min(leaves.y, leaves.z));
 }
 
@@ -183,21 +185,23 @@ void leave_texels(inout ConeWalk walk, vec3 texels, float t) {
     const vec3 fitting = min(twice_power_below(onward * walk.radius), coarsest);
     const bvec3 passes = bvec3(uvec3(lessThan(walk.next, onward)) & uvec3(lessThanEqual(walk.edge, texels)));
     walk.edge = mix(walk.edge, max(walk.edge, fitting), passes);
-    const vec3 looks_at = (floor((walk.start + walk.slope * onward) / walk.edge) + 0.5f * walk.look) * walk.edge;
+    const vec3 looks_at = (floor((walk.start + walk.slope * onward) * inverse_power(walk.edge)) + 0.5f * walk.look) * walk.edge;
     walk.next = mix(walk.next, max((looks_at - walk.start) * walk.inverse, onward), passes);
 }
 
 /// Goes past what is empty at the way's position; false where the layer has to be looked at.
 bool pass_empty(inout ConeWalk walk, Layer layer) {
-    const vec3 position = walk.origin + walk.direction * layer.t;
+    const vec3 position = place(walk, walked(walk, layer.t));
     if (nested && exp2(level_holding(position)) > layer.edge) {
         leave_cascade(walk, layer);
         return true;
     }
     uint finest;
     const uint empty = emptiness_at(position, finest);
-    const uvec3 levels = (uvec3(empty) >> walk.facing) & ((1u << emptiness_bits) - 1u);
-    const vec3 texels = exp2(vec3(finest + levels) - 1.0f);
+    // Along an axis what looks backward faces the cone, and where that goes backward, what looks forward.
+    const uvec3 facing = emptiness_bits * (uvec3(0u, 2u, 4u) + uvec3(not(walk.backward)));
+    const uvec3 levels = (uvec3(empty) >> facing) & ((1u << emptiness_bits) - 1u);
+    const vec3 texels = uintBitsToFloat((finest + levels + 126u) << 23u);  // the coarsest empty ones: 2^(levels - 1)
     if (along(layer.axis, texels) < layer.edge) return false;
     leave_texels(walk, texels, layer.t);
     return true;
@@ -214,7 +218,7 @@ void leave_look(inout ConeWalk walk, Layer layer, uint found) {
         return;
     }
     const float look = along(layer.axis, walk.look);
-    const float walked = (layer.start + layer.slope * layer.t) / layer.edge;
+    const float walked = (layer.start + layer.slope * layer.t) * inverse_power(layer.edge);
     const float after = floor(walked) + 1.0f;
     const float ahead = walked + look;
     const bool leaves = found == met || ahead >= after;
@@ -239,10 +243,10 @@ uint meet_layer(ConeWalk walk, Layer layer, inout ConeResult result) {
     // A ray that goes forward sees what looks backward. Along the axis a layer's texels are looked up in their middle,
     // wherever the face stands: layers do not mix.
     const vec3 corner = vec3(turned ? 0.0f : 0.5f, 0.0f, layer.axis.y ? 1.0f / 3.0f : layer.axis.x ? 0.0f : 2.0f / 3.0f);
-    const float number = floor((layer.start + layer.slope * layer.t) / layer.edge);
+    const float number = floor((layer.start + layer.slope * layer.t) * inverse_power(layer.edge));
     const float forward_middle = (number + 0.5f) * layer.edge;
     const vec3 middle = vec3(turned ? walk.wide - forward_middle : forward_middle);
-    const vec3 at = corner + face_coordinates(mix(walk.origin + walk.direction * layer.t, middle, layer.axis), layer.edge, float(level));
+    const vec3 at = corner + face_coordinates(mix(place(walk, walked(walk, layer.t)), middle, layer.axis), layer.edge, float(level));
     const vec4 seen = textureLod(voxel_faces_texture, at, mip);
     const float deep = textureLod(voxel_depths_texture, at, mip).r;  // both at once: what is empty is seldom looked at
     if (seen.a <= 0.0f) return missed;
@@ -250,8 +254,8 @@ uint meet_layer(ConeWalk walk, Layer layer, inout ConeResult result) {
     const float meets = ((number + (turned ? 1.0f - depth : depth)) * layer.edge - layer.start) * layer.inverse;
     if (!(meets >= walk.begin && meets <= walk.end)) return missed;
     if (meets > leaves_texel(walk, layer.edge, layer.t)) return met_later;
-    const vec3 place = corner + face_coordinates(mix(walk.origin + walk.direction * meets, middle, layer.axis), layer.edge, float(level));
-    const vec4 face = textureLod(voxel_faces_texture, place, mip);
+    const vec3 within = corner + face_coordinates(mix(place(walk, walked(walk, meets)), middle, layer.axis), layer.edge, float(level));
+    const vec4 face = textureLod(voxel_faces_texture, within, mip);
     if (face.a <= 0.0f) return missed;
     const float gained = min(face.a, 1.0f - result.cover);
     result.radiance += face.rgb * (gained / face.a);
