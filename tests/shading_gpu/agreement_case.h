@@ -11,6 +11,7 @@
 SHADING_BEGIN
 
 SHADING_CONST uint agreement_values = 28u;  // vec4 a case
+SHADING_CONST uint agreement_sky_value = 26u;
 
 SHADING_FN Surface agreement_surface(uint i) {
     vec4 a = random4(i, 0u, 0u, 1u);
@@ -238,7 +239,7 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
         BsdfSample sampled = bsdf_sample(agreement_extended_surface(i), wo, vec3(v));
         return k == 24u ? vec4(sampled.direction, sampled.eta_scale) : vec4(sampled.weight, sampled.pdf);
     }
-    if (k == 26u) {
+    if (k == agreement_sky_value) {
         return vec4(sky_radiance(agreement_sky(i), sample_uniform_sphere(vec2(v)), vec3(1.0f)), v.z);
     }
     if (k == 27u) {

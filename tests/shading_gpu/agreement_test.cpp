@@ -63,7 +63,8 @@ TEST(Agreement, EveryFormulaGivesTheSameInBothLanguages) {
         }
     }
     for (uint k = 0; k < agreement_values; ++k) {
-        EXPECT_LT(worst[k], 1e-4) << "value " << k << ", case " << worst_case[k];
+        // The angle from the sun is an arc sine, of which Vulkan asks 4096 units in the last place; skies fall steeply with it.
+        EXPECT_LT(worst[k], k == agreement_sky_value ? 1e-3 : 1e-4) << "value " << k << ", case " << worst_case[k];
         RecordProperty("worst_" + std::to_string(k), std::to_string(worst[k]));
     }
 }
