@@ -13,7 +13,7 @@ namespace heliodon::trace {
 namespace {
 
 constexpr std::uint32_t pilot_seed = 0x70696c6fu;
-constexpr int sequences = 2, paths_a_sequence = 4;
+constexpr int sequences = 2, paths_a_sequence = 16;  // so long that what the sequence evens out of the rest counts little
 constexpr int branch_bits = 2, branches_a_path = 1 << branch_bits;
 
 /// A pixel's relative variance counts up to this, so that no single outlier decides; pixels darker than this share of the
@@ -89,7 +89,7 @@ Branching choose_branching(const CpuKernel& shared_kernel, const EmbreeScene& sc
     kernel.frame.branch_bits = branch_bits;
     kernel.frame.tile_bits = 0;
     kernel.frame.sample_streams = 1;
-    constexpr std::uint32_t most_pixels = 512, pixels_a_pilot_pixel = 32;  // a part of a sample a pixel
+    constexpr std::uint32_t most_pixels = 128, pixels_a_pilot_pixel = 64;  // a part of a sample a pixel
     const std::uint32_t pixels = kernel.frame.width * kernel.frame.height;
     std::vector<Costs> each(std::clamp(pixels / pixels_a_pilot_pixel, 1u, most_pixels));
     tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
