@@ -2,7 +2,7 @@
 
 build_packages=(
     # compiler and build tools
-    g++ cmake ninja-build ccache pkg-config
+    g++ cmake ninja-build ccache pkg-config python3
     # Vulkan, shaders
     libvulkan-dev libvulkan1 libvulkan-volk-dev glslang-dev glslang-tools
     libspirv-cross-c-shared-dev spirv-tools spirv-headers

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <iterator>
 #include <utility>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
@@ -66,43 +68,46 @@ void shape_bounds(const RTCBoundsFunctionArguments* arguments) {
     *arguments->bounds_o = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, 0};
 }
 
-glm::dvec3 origin_of(const RTCRay& ray) {
-    return {ray.org_x, ray.org_y, ray.org_z};
-}
-glm::dvec3 direction_of(const RTCRay& ray) {
-    return {ray.dir_x, ray.dir_y, ray.dir_z};
+/// Calls `accept(lane, crossing)` for the crossings of each ray of a packet, as cross_shape does.
+template <class Accept>
+void cross_packet(const Shape& shape, const int* valid, RTCRayN* rays, unsigned count, Accept&& accept) {
+    for (unsigned i = 0; i < count; ++i) {
+        if (!valid[i]) continue;
+        const glm::dvec3 origin{RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i), RTCRayN_org_z(rays, count, i)};
+        const glm::dvec3 direction{RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i),
+                                   RTCRayN_dir_z(rays, count, i)};
+        cross_shape(shape, origin, direction, [&](const Crossing& crossing) {
+            const auto t = static_cast<float>(crossing.t);
+            if (!(t > RTCRayN_tnear(rays, count, i) && t <= RTCRayN_tfar(rays, count, i))) return false;
+            accept(i, crossing);
+            return true;
+        });
+    }
 }
 
 void shape_intersect(const RTCIntersectFunctionNArguments* arguments) {
-    if (!arguments->valid[0]) return;
-    // Only single rays are traced, so that the packet is one RTCRayHit.
-    auto& query = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+    const unsigned n = arguments->N;
+    RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
+    RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, n);
     const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
-    cross_shape(shape, origin_of(query.ray), direction_of(query.ray), [&](const Crossing& crossing) {
-        const auto t = static_cast<float>(crossing.t);
-        if (!(t > query.ray.tnear && t <= query.ray.tfar)) return false;
-        query.ray.tfar = t;
-        query.hit.u = static_cast<float>(crossing.u);
-        query.hit.v = static_cast<float>(crossing.v);
-        query.hit.Ng_x = static_cast<float>(crossing.normal.x);
-        query.hit.Ng_y = static_cast<float>(crossing.normal.y);
-        query.hit.Ng_z = static_cast<float>(crossing.normal.z);
-        query.hit.primID = arguments->primID;
-        query.hit.geomID = 0;
-        query.hit.instID[0] = arguments->context->instID[0];
-        return true;
+    cross_packet(shape, arguments->valid, rays, n, [&](unsigned i, const Crossing& crossing) {
+        RTCRayN_tfar(rays, n, i) = static_cast<float>(crossing.t);
+        RTCHitN_u(hits, n, i) = static_cast<float>(crossing.u);
+        RTCHitN_v(hits, n, i) = static_cast<float>(crossing.v);
+        RTCHitN_Ng_x(hits, n, i) = static_cast<float>(crossing.normal.x);
+        RTCHitN_Ng_y(hits, n, i) = static_cast<float>(crossing.normal.y);
+        RTCHitN_Ng_z(hits, n, i) = static_cast<float>(crossing.normal.z);
+        RTCHitN_primID(hits, n, i) = arguments->primID;
+        RTCHitN_geomID(hits, n, i) = 0;
+        RTCHitN_instID(hits, n, i, 0) = arguments->context->instID[0];
     });
 }
 
 void shape_occluded(const RTCOccludedFunctionNArguments* arguments) {
-    if (!arguments->valid[0]) return;
-    auto& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
+    const unsigned n = arguments->N;
     const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
-    cross_shape(shape, origin_of(ray), direction_of(ray), [&](const Crossing& crossing) {
-        const auto t = static_cast<float>(crossing.t);
-        if (!(t > ray.tnear && t <= ray.tfar)) return false;
-        ray.tfar = -std::numeric_limits<float>::infinity();
-        return true;
+    cross_packet(shape, arguments->valid, arguments->ray, n, [&](unsigned i, const Crossing&) {
+        RTCRayN_tfar(arguments->ray, n, i) = -std::numeric_limits<float>::infinity();
     });
 }
 
@@ -315,6 +320,49 @@ shading::KernelHit EmbreeScene::trace(const shading::KernelRay& ray) const {
     hit.barycentric = {query.hit.u, query.hit.v};
     hit.object_normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
     return hit;
+}
+
+void EmbreeScene::trace(const KernelRays8& rays, KernelHits8& hits) const {
+    static_assert(sizeof(RTCRay8::org_x) == sizeof rays.t_max);
+    RTCRayHit8 query;
+    RTCRay8& ray = query.ray;
+    const auto copy = [](auto& to, const auto& from) { std::memcpy(&to, &from, sizeof from); };
+    copy(ray.org_x, rays.origin[0]), copy(ray.org_y, rays.origin[1]), copy(ray.org_z, rays.origin[2]);
+    copy(ray.dir_x, rays.direction[0]), copy(ray.dir_y, rays.direction[1]), copy(ray.dir_z, rays.direction[2]);
+    copy(ray.tfar, rays.t_max);
+    for (int i = 0; i < 8; ++i) {
+        ray.tnear[i] = ray.time[i] = 0;
+        ray.id[i] = ray.flags[i] = 0;
+        query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    alignas(32) int open[8];
+    copy(open, rays.valid);
+    std::fill(std::begin(hits.kind), std::end(hits.kind), shading::kernel_hit_nothing);
+    unsigned mask = opaque_mask | translucent_mask;
+    if (rays.kind == shading::kernel_ray_shadow) {
+        std::fill(std::begin(ray.mask), std::end(ray.mask), opaque_mask);
+        embree_occluded(top_.get(), open, ray);
+        bool any_open = false;
+        for (int i = 0; i < 8; ++i) {
+            const bool blocked = open[i] && ray.tfar[i] < 0;
+            if (blocked) hits.kind[i] = shading::kernel_hit_blocked, open[i] = 0;
+            any_open |= open[i] != 0;
+        }
+        if (!any_translucent_ || !any_open) return;
+        mask = translucent_mask;
+    }
+    std::fill(std::begin(ray.mask), std::end(ray.mask), mask);
+    embree_intersect(top_.get(), open, query);
+    for (int i = 0; i < 8; ++i) {
+        const bool met = open[i] && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        if (met) hits.kind[i] = shading::kernel_hit_surface;
+        const bool direct = query.hit.instID[0][i] == RTC_INVALID_GEOMETRY_ID;
+        hits.instance[i] = direct ? query.hit.geomID[i] : query.hit.instID[0][i];
+    }
+    copy(hits.t, ray.tfar), copy(hits.primitive, query.hit.primID);
+    copy(hits.barycentric[0], query.hit.u), copy(hits.barycentric[1], query.hit.v);
+    copy(hits.object_normal[0], query.hit.Ng_x), copy(hits.object_normal[1], query.hit.Ng_y);
+    copy(hits.object_normal[2], query.hit.Ng_z);
 }
 
 }  // namespace heliodon::trace

@@ -24,6 +24,17 @@ using SceneReference = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRe
 using GeometryReference =
     std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeRelease<RTCGeometry, rtcReleaseGeometry>>;
 
+/// Eight rays of one kind, number by number, of which those count that are −1 in `valid`; and what they met.
+struct alignas(32) KernelRays8 {
+    int valid[8];
+    float origin[3][8], direction[3][8], t_max[8];
+    std::uint32_t kind;
+};
+struct alignas(32) KernelHits8 {
+    float object_normal[3][8], t[8], barycentric[2][8];
+    std::uint32_t instance[8], primitive[8], kind[8];
+};
+
 /// Answers the kernel's rays on the CPU, over the scene's own vertex arrays: a top level of instances numbered as
 /// FlatScene numbers them. A mesh that one instance uses as it was modelled stands in the top level itself, whose tree
 /// then need not be left for another; every other geometry has an Embree scene of its own, shapes among them, which
@@ -37,6 +48,8 @@ public:
     /// The nearest hit of a scatter ray. Of a shadow ray: blocked, or the nearest surface that might let
     /// light through, or nothing.
     [[nodiscard]] shading::KernelHit trace(const shading::KernelRay& ray) const;
+    /// The same of eight.
+    void trace(const KernelRays8& rays, KernelHits8& hits) const;
 
 private:
     struct Level {

@@ -10,6 +10,8 @@
 #include "core/units.h"
 #include "trace/bidirectional_loop.h"
 #include "trace/branching.h"
+#include "trace/lanes/lane_loop.h"
+#include "trace/lanes/lane_paths.h"
 #include "trace/measure.h"
 #include "trace/render_loop.h"
 
@@ -155,15 +157,16 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
     const trace::Branching branching = branches_of(options, kernel, state_->embree);
     kernel.frame.branch_bits = branching.bits;
     trace::EmissionTable emission;
-    trace::AddSamples bidirectional;
+    trace::AddSamples samples;
+    if (options.lanes && trace::lanes_available()) samples = trace::lane_samples(kernel, state_->embree);
     if (options.integrator == Integrator::bidirectional) {
         emission = trace::build_emission(state_->flat, state_->emitters, options.environment);
-        bidirectional = trace::bidirectional_samples({kernel, emission}, state_->embree);
+        samples = trace::bidirectional_samples({kernel, emission}, state_->embree);
     }
     constexpr double floor = 0.01;  // of the luminance that the camera shows as white
     PathStatistics counted;
     auto picture = trace::render_picture(kernel, state_->embree, options, floor / units::exposure_scale(camera.ev100()),
-                                         counted, progress, bidirectional);
+                                         counted, progress, samples);
     if (!picture) return picture;
     counted.seconds += branching.seconds;
     counted.rays += branching.rays;

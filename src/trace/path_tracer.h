@@ -35,6 +35,7 @@ struct PathOptions {
     std::vector<std::string> aovs;  ///< albedo normal depth position direct indirect variance samples
     bool blue_noise = true;  ///< neighbouring pixels err apart; false: independently, as with a variance or target error
     bool light_tree = true;  ///< false: lights are selected by flux alone, wherever they stand
+    bool lanes = true;       ///< eight paths at a time where the processor has AVX2; false: one by one
     int branches = 0;        ///< directions in which paths leave their first surface: 1, 2 or 4; 0: as many as pay
     KeepState keep_state = KeepState::never;
     const Picture* resume = nullptr;  ///< a picture with state, of the same scene and options, to go on from

@@ -36,7 +36,8 @@ struct Accumulation;
 using AddSamples = std::function<PathCounts(Accumulation& picture, int end)>;
 
 /// The picture with its AOVs, and the state to go on from where the options want it. `floor_nits`: a target error is
-/// relative to √(L² + floor²). `other`: instead of unidirectional paths; without a target error.
+/// relative to √(L² + floor²). `other`: instead of unidirectional paths one by one; a
+/// target error needs one that follows `adaptive`.
 [[nodiscard]] Result<Picture> render_picture(const CpuKernel& kernel, const EmbreeScene& scene,
                                              const PathOptions& options, double floor_nits, PathStatistics& statistics,
                                              const Progress& progress, const AddSamples& other = {});

@@ -27,6 +27,11 @@ void TextureTable::update(const convert::FlatScene& flat) {
         if (texture->levels[level].size() >= needed) entry.texels = texture->levels[level].data();
         entries_[i] = entry;
     }
+    static constexpr std::uint8_t white[4] = {255, 255, 255, 255};
+    whole_ = entries_;
+    whole_.emplace_back();
+    for (Entry& entry : whole_)
+        if (!entry.texels) entry = {.texels = white};
 }
 
 }  // namespace heliodon::trace

@@ -38,8 +38,6 @@ public:
         if (index >= entries_.size() || !entries_[index].texels) return glm::ivec2(1);
         return {entries_[index].width, entries_[index].height};
     }
-
-private:
     struct Entry {
         const std::uint8_t* texels = nullptr;
         int width = 1, height = 1;
@@ -47,6 +45,16 @@ private:
         Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
         bool nearest = false;
     };
+    /// The table for readers of their own (lanes/fetch.h): `count` entries and a white one behind them, which also stands
+    /// in for those without texels; what bytes of sRGB mean.
+    struct Contents {
+        const Entry* entries;
+        std::uint32_t count;
+        const float* srgb;
+    };
+    [[nodiscard]] Contents contents() const { return {whole_.data(), static_cast<std::uint32_t>(entries_.size()), srgb_.data()}; }
+
+private:
 
     [[nodiscard]] static int floor_to_int(float x) {
         const int towards_zero = static_cast<int>(x);
@@ -78,6 +86,7 @@ private:
     }
 
     std::vector<Entry> entries_;
+    std::vector<Entry> whole_;  ///< Contents::entries
     std::array<float, 256> srgb_{}, linear_{};
 };
 
