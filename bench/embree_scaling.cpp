@@ -164,30 +164,30 @@ double picture_ray_ns(PathTracer& tracer, const Scene& scene) {
     return least;
 }
 
+Scene scene_of(std::size_t triangles) {
+    Scene scene;
+    Geometry geometry;
+    geometry.mesh = wavy_sphere(triangles);
+    geometry.bounds = geometry.mesh.bounds();
+    Node node;
+    node.parts.push_back({scene.add_geometry(std::move(geometry)), scene.add_material({})});
+    scene.add_node(std::move(node));
+    Sky sky;
+    sky.model = SkyModel::constant;
+    sky.luminance_nits = glm::vec3(1);
+    scene.set_sky(sky);
+    return scene;
+}
+
 /// The path tracer; `bytes` all that it and its scene take.
 Measured measure_heliodon(std::size_t triangles) {
-    {   // What the first use of anything takes does not count.
-        Scene warm;
+    {   // What the first use of anything takes, threads among it, does not count.
+        const Scene warm = scene_of(10'000);
         PathTracer tracer;
-        Node node;
-        node.parts.push_back({warm.add_shape(Quad{}), warm.add_material({})});
-        warm.add_node(std::move(node));
         (void)tracer.update(warm);
     }
     const double before = resident_bytes();
-    Scene scene;
-    {
-        Geometry geometry;
-        geometry.mesh = wavy_sphere(triangles);
-        geometry.bounds = geometry.mesh.bounds();
-        Node node;
-        node.parts.push_back({scene.add_geometry(std::move(geometry)), scene.add_material({})});
-        scene.add_node(std::move(node));
-        Sky sky;
-        sky.model = SkyModel::constant;
-        sky.luminance_nits = glm::vec3(1);
-        scene.set_sky(sky);
-    }
+    const Scene scene = scene_of(triangles);
     Measured measured;
     scene.geometries().each([&](GeometryId, const Geometry& geometry) { measured.triangles = static_cast<double>(geometry.mesh.triangle_count()); });
     for (int build = 0; build < builds; ++build) {
