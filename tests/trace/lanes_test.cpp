@@ -26,7 +26,8 @@ void expect_same_paths(const std::string& name, const Scene& scene, const Camera
         int count = 0;
         for (int y = 0; y < a.height; ++y)
             for (int x = 0; x < a.width; ++x) {
-                const double value = luminance(a.rgb(x, y)), difference = luminance(glm::abs(a.rgb(x, y) - b.rgb(x, y)));
+                const double value = luminance(a.rgb(x, y)),
+                             difference = luminance(glm::abs(a.rgb(x, y) - b.rgb(x, y)));
                 count += difference <= 1e-3 * (value + 0.1 * scale) ? 1 : 0;
             }
         return static_cast<double>(count) / (a.width * a.height);
@@ -38,7 +39,11 @@ void expect_same_paths(const std::string& name, const Scene& scene, const Camera
 class Lanes : public testing::Test {
 protected:
     void SetUp() override {
-        if (!trace::lanes_available()) GTEST_SKIP() << "needs AVX2";
+#ifdef __x86_64__
+        if (trace::lanes_available()) return;
+        ASSERT_FALSE(__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) << "this build has no lanes";
+#endif
+        GTEST_SKIP() << "needs AVX2";
     }
 };
 
@@ -77,7 +82,8 @@ std::vector<Material> every_material() {
     all[10].model = MaterialModel::disney, all[10].sheen = 1, all[10].subsurface = .5f, all[10].anisotropy = .4f;
     all[11].model = MaterialModel::oren_nayar, all[11].sigma_rad = .4f;
     all[12].model = MaterialModel::conductor, all[12].metal = NamedMetal::copper;
-    all[13].model = MaterialModel::thin, all[13].reflectance = .1f, all[13].transmittance = {.8f}, all[13].two_sided = true;
+    all[13].model = MaterialModel::thin, all[13].reflectance = .1f, all[13].transmittance = {.8f},
+    all[13].two_sided = true;
     all[14].alpha_mode = AlphaMode::blend, all[14].opacity = .5f, all[14].two_sided = true;
     return all;
 }
@@ -103,7 +109,8 @@ TEST_F(Lanes, FollowTheSamePathsUnderEverySky) {
 
 /// Coloured noise of a format, wrapped as told.
 TextureId noise(Scene& scene, TextureFormat format, Wrap u, Wrap v, Filter filter) {
-    Texture texture{.width = 5, .height = 3, .format = format, .wrap_u = u, .wrap_v = v, .magnify = filter, .minify = filter};
+    Texture texture{
+        .width = 5, .height = 3, .format = format, .wrap_u = u, .wrap_v = v, .magnify = filter, .minify = filter};
     std::vector<std::uint8_t> bytes(15 * texture.bytes_per_texel());
     for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(97 * i * i + 31 * i);
     std::vector<float> floats(60);
@@ -119,7 +126,8 @@ TEST_F(Lanes, ReadTexturesOfEveryFormatWrapAndFilterOnMeshes) {
         for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge})
             for (const Filter filter : {Filter::nearest, Filter::linear}) {
                 Scene scene;
-                Geometry sheet = triangle_mesh({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
+                Geometry sheet =
+                    triangle_mesh({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
                 for (const glm::vec3& p : sheet.mesh.positions) {
                     sheet.mesh.texcoords[0].push_back(2.7f * glm::vec2(p.x, p.y));
                     sheet.mesh.normals.push_back(glm::normalize(glm::vec3(.3f * p.x, .2f * p.y, 1)));
@@ -135,8 +143,10 @@ TEST_F(Lanes, ReadTexturesOfEveryFormatWrapAndFilterOnMeshes) {
                 add_mesh(scene, std::move(sheet), material);
                 add_light(scene, point_light(10, .2f), {1, 1, 2});
                 scene.set_sky(even_sky(1));
-                expect_same_paths(std::to_string(static_cast<int>(format)) + " " + std::to_string(static_cast<int>(wrap)) + " " +
-                                      std::to_string(static_cast<int>(filter)), scene, camera);
+                expect_same_paths(std::to_string(static_cast<int>(format)) + " " +
+                                      std::to_string(static_cast<int>(wrap)) + " " +
+                                      std::to_string(static_cast<int>(filter)),
+                                  scene, camera);
             }
 }
 
@@ -150,12 +160,14 @@ TEST_F(Lanes, FollowTheSamePathsToManyLights) {
     }
     Scene many = small_room();
     for (int i = 0; i < 100; ++i)
-        add_light(many, point_light(.1f), {-.9f + .2f * static_cast<float>(i % 10), 1.7f, -.9f + .2f * static_cast<float>(i / 10)});
+        add_light(many, point_light(.1f),
+                  {-.9f + .2f * static_cast<float>(i % 10), 1.7f, -.9f + .2f * static_cast<float>(i / 10)});
     expect_same_paths("a hundred lights", many, into_box());
 }
 
 TEST_F(Lanes, FollowTheSamePathsToLuminairesOfEveryOpening) {
-    for (const OpeningShape shape : {OpeningShape::box, OpeningShape::cylinder_x, OpeningShape::cylinder_y, OpeningShape::ellipsoid}) {
+    for (const OpeningShape shape :
+         {OpeningShape::box, OpeningShape::cylinder_x, OpeningShape::cylinder_y, OpeningShape::ellipsoid}) {
         Luminaire luminaire;
         for (int i = 0; i <= 18; ++i) {
             const double polar = i * pi / 36;

@@ -13,24 +13,48 @@ inline Uint word(const std::uint32_t* table, Mask m, Uint index) {
     return (Uint)gather(reinterpret_cast<const char*>(table), ((Int)index & m) * 4);
 }
 
-inline KernelFrameRef kernel_frame(const LaneScene& k, Mask) { return {{k.frame}}; }
-inline SkyDataRef fetch_sky(const LaneScene& k, Mask) { return {{k.sky}}; }
-inline InstanceDataRef fetch_instance(const LaneScene& k, Mask m, Uint i) { return record<InstanceDataRef>(k.instances, m, i); }
-inline MaterialDataRef fetch_material(const LaneScene& k, Mask m, Uint i) { return record<MaterialDataRef>(k.materials, m, i); }
-inline LightDataRef fetch_light(const LaneScene& k, Mask m, Uint i) { return record<LightDataRef>(k.lights, m, i); }
-inline KernelEmitterRef fetch_emitter(const LaneScene& k, Mask m, Uint i) { return record<KernelEmitterRef>(k.emitters, m, i); }
+inline KernelFrameRef kernel_frame(const LaneScene& k, Mask) {
+    return {{k.frame}};
+}
+inline SkyDataRef fetch_sky(const LaneScene& k, Mask) {
+    return {{k.sky}};
+}
+inline InstanceDataRef fetch_instance(const LaneScene& k, Mask m, Uint i) {
+    return record<InstanceDataRef>(k.instances, m, i);
+}
+inline MaterialDataRef fetch_material(const LaneScene& k, Mask m, Uint i) {
+    return record<MaterialDataRef>(k.materials, m, i);
+}
+inline LightDataRef fetch_light(const LaneScene& k, Mask m, Uint i) {
+    return record<LightDataRef>(k.lights, m, i);
+}
+inline KernelEmitterRef fetch_emitter(const LaneScene& k, Mask m, Uint i) {
+    return record<KernelEmitterRef>(k.emitters, m, i);
+}
 inline KernelLightNodeRef fetch_light_node(const LaneScene& k, Mask m, Uint i) {
     return record<KernelLightNodeRef>(k.light_nodes, m, i);
 }
 inline KernelGeometryRef fetch_geometry(const LaneScene& k, Mask m, Uint i) {
     return record<KernelGeometryRef>(&k.geometries->kernel, m, i, sizeof(GeometryArrays));
 }
-inline Uint fetch_first_emitter(const LaneScene& k, Mask m, Uint i) { return word(k.first_emitter, m, i); }
-inline Uint fetch_light_emitter(const LaneScene& k, Mask m, Uint i) { return word(k.light_emitter, m, i); }
-inline Uint fetch_visible_light(const LaneScene& k, Mask m, Uint i) { return word(k.visible_lights, m, i); }
-inline Float fetch_sky_cumulative(const LaneScene& k, Mask m, Uint i) { return word(k.sky_cumulative, m, i); }
-inline Float luminaire_value(const LaneScene& k, Mask m, Uint i) { return word(k.luminaire_table, m, i); }
-inline Float shading_table(const LaneScene& k, Mask m, Uint i) { return word(k.shading_tables, m, i); }
+inline Uint fetch_first_emitter(const LaneScene& k, Mask m, Uint i) {
+    return word(k.first_emitter, m, i);
+}
+inline Uint fetch_light_emitter(const LaneScene& k, Mask m, Uint i) {
+    return word(k.light_emitter, m, i);
+}
+inline Uint fetch_visible_light(const LaneScene& k, Mask m, Uint i) {
+    return word(k.visible_lights, m, i);
+}
+inline Float fetch_sky_cumulative(const LaneScene& k, Mask m, Uint i) {
+    return word(k.sky_cumulative, m, i);
+}
+inline Float luminaire_value(const LaneScene& k, Mask m, Uint i) {
+    return word(k.luminaire_table, m, i);
+}
+inline Float shading_table(const LaneScene& k, Mask m, Uint i) {
+    return word(k.shading_tables, m, i);
+}
 
 // -- vertices
 
@@ -39,17 +63,20 @@ inline Uint as_first(Mask m, Uint x) {
     const Uint first = lift(static_cast<std::uint32_t>(__builtin_ctz(bits(m))));
     return choose(m, x, (Uint)_mm256_permutevar8x32_epi32((__m256i)x, (__m256i)first));
 }
-/// 16 bytes at element `index` of the array whose pointer stands `array` bytes into each lane's GeometryArrays: all arrays
-/// are padded by that.
+/// 16 bytes at element `index` of the array whose pointer stands `array` bytes into each lane's GeometryArrays: all
+/// arrays are padded by that.
 template <class Element, std::size_t array>
-[[gnu::always_inline]] inline Vec4<Float> vertex_rows(const LaneScene& k, Mask m, Uint geometry, Uint index, Uint which = Uint{}) {
-    const Uint where = as_first(m, geometry * std::uint32_t{sizeof(GeometryArrays)} + which * std::uint32_t{sizeof(void*)});
+[[gnu::always_inline]] inline Vec4<Float> vertex_rows(const LaneScene& k, Mask m, Uint geometry, Uint index,
+                                                      Uint which = Uint{}) {
+    const Uint where =
+        as_first(m, geometry * std::uint32_t{sizeof(GeometryArrays)} + which * std::uint32_t{sizeof(void*)});
     const __m256i element = (__m256i)as_first(m, index);
     const auto* pointers = reinterpret_cast<const long long*>(reinterpret_cast<const char*>(k.geometries) + array);
     const __m256i size = _mm256_set1_epi64x(sizeof(Element));
     alignas(32) const float* at[lane_count];
     const auto four = [&](int half) {
-        const __m128i place = half ? _mm256_extracti128_si256((__m256i)where, 1) : _mm256_castsi256_si128((__m256i)where);
+        const __m128i place =
+            half ? _mm256_extracti128_si256((__m256i)where, 1) : _mm256_castsi256_si128((__m256i)where);
         const __m128i number = half ? _mm256_extracti128_si256(element, 1) : _mm256_castsi256_si128(element);
         const __m256i first = _mm256_i32gather_epi64(pointers, place, 1);
         const __m256i sum = _mm256_add_epi64(first, _mm256_mul_epu32(_mm256_cvtepu32_epi64(number), size));
@@ -94,7 +121,9 @@ struct LaneTexture {
     /// Of what stands `bytes` behind the first texel, of lanes 0 to 3 or 4 to 7.
     [[nodiscard]] __m256i addresses(int half, Int bytes) const {
         static_assert(offsetof(TextureTable::Entry, texels) == 0);
-        const auto four = [&](Int x) { return half ? _mm256_extracti128_si256((__m256i)x, 1) : _mm256_castsi256_si128((__m256i)x); };
+        const auto four = [&](Int x) {
+            return half ? _mm256_extracti128_si256((__m256i)x, 1) : _mm256_castsi256_si128((__m256i)x);
+        };
         return _mm256_add_epi64(_mm256_i32gather_epi64(reinterpret_cast<const long long*>(entries), four(offset), 1),
                                 _mm256_cvtepu32_epi64(four(bytes)));
     }
@@ -122,7 +151,8 @@ inline LaneTexels texels_along(Float u, Int size, Int wrap, Float half) {
         Int inside = choose(i < 0, i + count, i);
         inside = choose(inside >= count, inside - count, inside);
         inside = choose(inside > last, count - 1 - inside, inside);
-        return choose(clamps, (Int)_mm256_min_epi32(_mm256_max_epi32((__m256i)i, _mm256_setzero_si256()), (__m256i)last), inside);
+        return choose(
+            clamps, (Int)_mm256_min_epi32(_mm256_max_epi32((__m256i)i, _mm256_setzero_si256()), (__m256i)last), inside);
     };
     const Int first = (Int)to_uint(below);
     return {wrapped(first), wrapped(first + 1), x - below};
@@ -134,10 +164,12 @@ inline Vec4<Float> texels_at(const LaneScene& k, const LaneTexture& texture, Int
         return _mm256_i64gather_epi32(static_cast<const int*>(nullptr), texture.addresses(half, at * 4), 1);
     };
     const Uint bytes = (Uint)_mm256_set_m128i(four(1), four(0));
-    const Mask srgb = format == static_cast<int>(TextureFormat::srgb8), floats = format == static_cast<int>(TextureFormat::float32);
+    const Mask srgb = format == static_cast<int>(TextureFormat::srgb8),
+               floats = format == static_cast<int>(TextureFormat::float32);
     const auto decode = [&](Uint byte) {
         const Float linear = to_float((Int)byte) / 255.0f;
-        return any(srgb) ? choose(srgb, gather(reinterpret_cast<const char*>(k.textures.srgb), (Int)byte * 4), linear) : linear;
+        return any(srgb) ? choose(srgb, gather(reinterpret_cast<const char*>(k.textures.srgb), (Int)byte * 4), linear)
+                         : linear;
     };
     Vec4<Float> result = {decode(bytes & 255u), decode(bytes >> 8u & 255u), decode(bytes >> 16u & 255u),
                           to_float((Int)(bytes >> 24u)) / 255.0f};
@@ -166,9 +198,11 @@ inline Vec4<Float> scene_texture(const LaneScene& k, Mask m, Uint index, const V
     const auto between = [](const Vec4<Float>& a, const Vec4<Float>& b, Float t) {
         return each(a, b, [t](Float p, Float q) { return mix(p, q, t); });
     };
-    return between(between(texels_at(k, texture, format, top + x.first), texels_at(k, texture, format, top + x.second), across),
-                   between(texels_at(k, texture, format, bottom + x.first), texels_at(k, texture, format, bottom + x.second), across),
-                   down);
+    return between(
+        between(texels_at(k, texture, format, top + x.first), texels_at(k, texture, format, top + x.second), across),
+        between(texels_at(k, texture, format, bottom + x.first), texels_at(k, texture, format, bottom + x.second),
+                across),
+        down);
 }
 inline Vec2<Float> scene_texture_size(const LaneScene& k, Mask m, Uint index) {
     const LaneTexture texture = texture_of(k, m, index);

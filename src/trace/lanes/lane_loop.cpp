@@ -28,7 +28,8 @@ struct Batch {
         picture.blocks.each_pixel(block, [&](int x, int y) {
             for (int i = picture.done; i < end; ++i) {
                 if (!want.half(i & 1)) continue;
-                paths.push_back({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(i)});
+                paths.push_back(
+                    {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(i)});
                 wants.push_back(want);
             }
         });
@@ -52,7 +53,8 @@ struct Batch {
             const LaneRadiance& r = radiances[p];
             const int sample = static_cast<int>(path.sample), half = sample & 1;
             const std::size_t pixel = static_cast<std::size_t>(path.y) * picture.blocks.width + path.x;
-            const PathResult result{{r.radiance[0], r.radiance[1], r.radiance[2]}, {r.direct[0], r.direct[1], r.direct[2]}};
+            const PathResult result{{r.radiance[0], r.radiance[1], r.radiance[2]},
+                                    {r.direct[0], r.direct[1], r.direct[2]}};
             if (wants[p].picture[half]) picture.sums.add(pixel, sample, result);
             if (wants[p].decision[half]) picture.adaptive->add(pixel, sample, units::luminance(result.radiance));
         }

@@ -1,6 +1,7 @@
 // Compiled for AVX2 and FMA (trace/CMakeLists.txt).
 #include "trace/lanes/lane_paths.h"
 
+#include "trace/lanes/functions.h"
 #include "trace/lanes/lanes.h"
 #include "trace/lanes/records.h"
 
@@ -112,14 +113,16 @@ private:
         KernelRays8 rays;
         keep(rays.valid, m);
         keep(rays.origin[0], origin.x), keep(rays.origin[1], origin.y), keep(rays.origin[2], origin.z);
-        keep(rays.direction[0], direction.x), keep(rays.direction[1], direction.y), keep(rays.direction[2], direction.z);
+        keep(rays.direction[0], direction.x), keep(rays.direction[1], direction.y),
+            keep(rays.direction[2], direction.z);
         keep(rays.t_max, shadow ? state.shadow_t_max : lift(shading::kernel_infinity));
         rays.kind = shadow ? shading::kernel_ray_shadow : shading::kernel_ray_scatter;
         KernelHits8 hits;
         k_.embree->trace(rays, hits);
         rays_ += __builtin_popcount(bits(m));
         path_take_hit(k_, m, state,
-                      {.object_normal = {loaded(hits.object_normal[0]), loaded(hits.object_normal[1]), loaded(hits.object_normal[2])},
+                      {.object_normal = {loaded(hits.object_normal[0]), loaded(hits.object_normal[1]),
+                                         loaded(hits.object_normal[2])},
                        .t = loaded(hits.t),
                        .barycentric = {loaded(hits.barycentric[0]), loaded(hits.barycentric[1])},
                        .instance = loaded(hits.instance),
@@ -136,7 +139,7 @@ private:
     const LanePath* paths_;
     std::size_t count_, next_ = 0;
     LaneRadiance* results_;
-    PathState state_{};  // all done
+    PathState state_{};                    // all done
     std::size_t number_[lane_count] = {};  // of the path in each lane
     unsigned active_ = 0;
     PathState packs_[pack_count];

@@ -62,17 +62,30 @@ struct Record {
     }
 };
 template <class R>
-    requires requires(R r) { r.base; r.offset; }
+requires requires(R r) {
+    r.base;
+    r.offset;
+}
 inline void assign(Mask m, R& to, const R& from) {
     to.base = from.base;  // of the one table that such records stand in
     to.offset = choose(m, from.offset, to.offset);
 }
 
-inline auto shared(const glm::vec2& v) { return Vec2<float>{v.x, v.y}; }
-inline auto shared(const glm::vec3& v) { return Vec3<float>{v.x, v.y, v.z}; }
-inline auto shared(const glm::vec4& v) { return Vec4<float>{v.x, v.y, v.z, v.w}; }
-inline float shared(float x) { return x; }
-inline std::uint32_t shared(std::uint32_t x) { return x; }
+inline auto shared(const glm::vec2& v) {
+    return Vec2<float>{v.x, v.y};
+}
+inline auto shared(const glm::vec3& v) {
+    return Vec3<float>{v.x, v.y, v.z};
+}
+inline auto shared(const glm::vec4& v) {
+    return Vec4<float>{v.x, v.y, v.z, v.w};
+}
+inline float shared(float x) {
+    return x;
+}
+inline std::uint32_t shared(std::uint32_t x) {
+    return x;
+}
 template <class T>
 struct SharedArray {
     const T* first;
@@ -94,7 +107,9 @@ struct SharedRecord {
     }
 };
 template <class R>
-    requires requires(R r) { r.record; }
+requires requires(R r) {
+    r.record;
+}
 inline void assign(Mask, R& to, const R& from) {
     to = from;
 }
