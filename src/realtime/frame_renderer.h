@@ -168,7 +168,8 @@ private:
     [[nodiscard]] Result<void> update_surfaces(const Camera& camera, const FrameSample& sample);
     /// What a live frame does for the volume.
     [[nodiscard]] Result<void> record_volume(gpu::Commands& commands, const FrameSample& sample, std::size_t batch);
-    [[nodiscard]] Result<void> record_volume_bounces(gpu::Commands& commands);
+    /// `lights`: those to be lit with the bounce, if they are not yet.
+    [[nodiscard]] Result<void> record_volume_bounces(gpu::Commands& commands, const ShadowBatch* lights);
     /// Whether anything but lights brings light.
     [[nodiscard]] bool emission_or_sky() const;
     void surfaces_voxelized();

@@ -115,12 +115,13 @@ bool FrameRenderer::emission_or_sky() const {
     return voxels_.emits() || (volume_key_.sky && gpu_scene_.flat().sky().model != shading::sky_model_none);
 }
 
-Result<void> FrameRenderer::record_volume_bounces(gpu::Commands& commands) {
+Result<void> FrameRenderer::record_volume_bounces(gpu::Commands& commands, const ShadowBatch* lights) {
     if (settings_.bounces == 0) {
         // All bounces: each turn adds one to what the volume holds.
         if (bounce_frames_ >= most_live_frames) return {};
         VoxelVolume::Gather gather = next_gather(bounce_frames_++ / turn_frames, converging_bounces);
         gather.side = gather_side_ = (gather_side_ + 1) % turn_frames;
+        if (lights) return voxels_.record_lit_bounce(commands, &timestamps_, lights->first_light, lights->light_count, gather);
         return voxels_.record_bounce(commands, &timestamps_, gather);
     }
     if (!relight_) return {};
@@ -143,10 +144,11 @@ Result<void> FrameRenderer::record_volume(gpu::Commands& commands, const FrameSa
             if (auto done = voxels_.record_emission(commands, &timestamps_); !done) return done;
         if (auto done = record_shadows(commands, unmoved(sample), batch, &timestamps_); !done) return done;
         const ShadowBatch& lights = plan_.batches[batch];
+        if (settings_.bounces == 0 && lighting_.shadows_traced) return record_volume_bounces(commands, &lights);
         if (auto done = voxels_.record_lights(commands, &timestamps_, lights.first_light, lights.light_count, false); !done)
             return done;
     }
-    return record_volume_bounces(commands);
+    return record_volume_bounces(commands, nullptr);
 }
 
 void FrameRenderer::surfaces_voxelized() {

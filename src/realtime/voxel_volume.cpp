@@ -67,7 +67,7 @@ Result<void> VoxelVolume::check_size(const VoxelSettings& settings) const {
     if (std::max({2 * n, 3 * n, c * n}) > most)
         return fail("render.voxels", fmt::format("a volume of {} voxels an edge in {} cascades needs a 3D texture of {}x{}x{} "
                                                  "texels, the device has at most {} a side", n, c, 2 * n, c * n, 3 * n, most));
-    const std::uint64_t bytes = texture_bytes(n, c) + 4 * c * cube(n), memory = device_.info().memory_bytes;
+    const std::uint64_t bytes = texture_bytes(n, c) + 8 * c * cube(n), memory = device_.info().memory_bytes;
     if (memory > 0 && bytes > memory)
         return fail("render.voxels", fmt::format("a volume of {} voxels an edge in {} cascades needs {} MiB, the device has {} MiB",
                                                  n, c, bytes >> 20, memory >> 20));
@@ -315,6 +315,14 @@ Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestam
     if (settings_.anew) forget_surfaces();
     // What is shown must be what gathered last, of voxels that are still of the same size.
     keeps_light_ = keep_light && !outdated_ && shown_.lattice == data_.lattice && shown_.voxel_m == data_.voxel_m;
+    // Where all is voxelized anew, nothing is needed where it was.
+    swapped_ = settings_.anew && !outdated_;
+    for (auto& cascade : cascades_) {
+        if (!swapped_) break;
+        std::swap(cascade->cells, cascade->shown_cells);
+        std::swap(cascade->levels, cascade->shown_levels);
+        if (keeps_light_) std::swap(cascade->gathered, cascade->shown_gathered);
+    }
     if (auto done = steps_->keep_shown.execute(commands, timestamps); !done) return done;
     outdated_ = true;
     for (std::size_t cascade = 0; cascade < cascades_.size(); ++cascade)
@@ -368,18 +376,40 @@ Result<void> VoxelVolume::show(graph::Executor& step, gpu::Commands& commands, g
     return {};
 }
 
-Result<void> VoxelVolume::record_lights(gpu::Commands& commands, gpu::Timestamps* timestamps, std::uint32_t light_first,
-                                        std::uint32_t light_count, bool add) {
+void VoxelVolume::set_lights(std::uint32_t light_first, std::uint32_t light_count, bool add) {
     for (auto& cascade : cascades_) {
         cascade->constants.light_first = light_first;
         cascade->constants.light_count = light_count;
         cascade->constants.add = add ? 1 : 0;
     }
+}
+
+Result<void> VoxelVolume::record_lights(gpu::Commands& commands, gpu::Timestamps* timestamps, std::uint32_t light_first,
+                                        std::uint32_t light_count, bool add) {
+    set_lights(light_first, light_count, add);
     return steps_->lights.execute(commands, timestamps);
 }
 
 Result<void> VoxelVolume::record_emission(gpu::Commands& commands, gpu::Timestamps* timestamps) {
     return show(steps_->emission, commands, timestamps);
+}
+
+Result<void> VoxelVolume::set_gather(const Gather& gather) {
+    for (auto& cascade : cascades_) {
+        const std::uint32_t every_face = (1u << shading::voxel_faces) - 1;
+        cascade->gather_faces.all = gather.side ? 1u << *gather.side : every_face;
+        cascade->gather_faces.unlit = cascade->gathered_known ? 0 : every_face & ~cascade->gather_faces.all;
+        cascade->gathered_known = true;
+        cascade->constants.gather_shift = gather.shift;
+        cascade->constants.gather_weight = gather.weight;
+    }
+    // Light is gathered from the texture as it is, by the cones of now.
+    shading::VolumeData before = current_;
+    before.lattice = shown_.lattice;
+    before.voxel_m = shown_.voxel_m;
+    before.radiance_unit = shown_.radiance_unit;
+    std::copy(std::begin(shown_.cascade), std::end(shown_.cascade), std::begin(before.cascade));
+    return device_.upload(shown_buffer_, std::span<const shading::VolumeData>(&before, 1));
 }
 
 Result<void> VoxelVolume::record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps,
@@ -388,22 +418,15 @@ Result<void> VoxelVolume::record_bounce(gpu::Commands& commands, gpu::Timestamps
         for (auto& cascade : cascades_) cascade->gathered_known = true;
         return show(steps_->reflect, commands, timestamps);
     }
-    for (auto& cascade : cascades_) {
-        const std::uint32_t every_face = (1u << shading::voxel_faces) - 1;
-        cascade->gather_faces.all = gather->side ? 1u << *gather->side : every_face;
-        cascade->gather_faces.unlit = cascade->gathered_known ? 0 : every_face & ~cascade->gather_faces.all;
-        cascade->gathered_known = true;
-        cascade->constants.gather_shift = gather->shift;
-        cascade->constants.gather_weight = gather->weight;
-    }
-    // Light is gathered from the texture as it is, by the cones of now.
-    shading::VolumeData before = current_;
-    before.lattice = shown_.lattice;
-    before.voxel_m = shown_.voxel_m;
-    before.radiance_unit = shown_.radiance_unit;
-    std::copy(std::begin(shown_.cascade), std::end(shown_.cascade), std::begin(before.cascade));
-    if (auto done = device_.upload(shown_buffer_, std::span<const shading::VolumeData>(&before, 1)); !done) return done;
+    if (auto done = set_gather(*gather); !done) return done;
     return show(steps_->bounce, commands, timestamps);
+}
+
+Result<void> VoxelVolume::record_lit_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps, std::uint32_t light_first,
+                                            std::uint32_t light_count, const Gather& gather) {
+    set_lights(light_first, light_count, false);
+    if (auto done = set_gather(gather); !done) return done;
+    return show(steps_->lit_bounce, commands, timestamps);
 }
 
 Result<bool> VoxelVolume::grow() {

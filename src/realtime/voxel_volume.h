@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -53,6 +54,9 @@ public:
     };
     [[nodiscard]] Result<void> record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps,
                                              const std::optional<Gather>& gather);
+    /// record_lights() of a batch that is alone and record_bounce() side by side, where lights' cones are traced ahead.
+    [[nodiscard]] Result<void> record_lit_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps, std::uint32_t light_first,
+                                                 std::uint32_t light_count, const Gather& gather);
     /// Cones and effects of this frame; before the frame's other work.
     [[nodiscard]] Result<void> upload_data(shading::VolumeData data);
 
@@ -107,8 +111,9 @@ private:
     };
     struct Steps {
         explicit Steps(gpu::Device& device)
-            : keep_shown(device), lights(device), emission(device), reflect(device), bounce(device) {}
+            : keep_shown(device), lights(device), emission(device), reflect(device), bounce(device), lit_bounce(device) {}
         graph::Executor keep_shown, lights, emission, reflect, bounce;
+        graph::Executor lit_bounce;  // a bounce and, beside its gathering, the lights, where their cones are traced ahead
         std::vector<std::unique_ptr<SurfaceSteps>> surfaces;  // of each cascade
     };
     struct VolumeGraph;
@@ -116,11 +121,14 @@ private:
     [[nodiscard]] Result<void> make_texture(VkExtent3D extent);
     [[nodiscard]] Result<void> make_buffers();
     [[nodiscard]] Result<void> make_still_buffers();
+    void set_lights(std::uint32_t light_first, std::uint32_t light_count, bool add);
+    [[nodiscard]] Result<void> set_gather(const Gather& gather);
     [[nodiscard]] Result<void> show(graph::Executor& step, gpu::Commands& commands, gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> place(const GpuScene& scene, glm::vec3 eye);
     [[nodiscard]] Result<void> list_triangles(const GpuScene& scene);
     [[nodiscard]] Result<void> record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, std::size_t cascade);
     void forget_surfaces();
+    [[nodiscard]] Result<void> build_lit_bounce(const Source& source, const std::function<Result<void>(VolumeGraph&, bool)>& add_volume);
     [[nodiscard]] VolumeGraph begin_graph(const Source& source) const;
     [[nodiscard]] Result<void> finish_graph(graph::Executor& executor, VolumeGraph& volume, const Source& source) const;
     [[nodiscard]] Result<void> build_surface_graphs(const Source& source);
@@ -134,7 +142,7 @@ private:
     std::uint32_t record_capacity_ = 0, tile_capacity_ = 0;
     bool remake_ = true, emits_ = false, passes_known_ = false;
     bool outdated_ = false;  // the texture shows surfaces as they were before they were voxelized anew
-    bool keeps_light_ = false;  // what those gathered goes over to the new ones
+    bool keeps_light_ = false, swapped_ = false;  // what those gathered goes over to the new ones
     std::uint64_t placement_revision_ = 0, texture_revision_ = 0, listed_revision_ = ~0ull, loaded_revision_ = ~0ull;
     Work work_;
     std::vector<std::unique_ptr<Cascade>> cascades_;

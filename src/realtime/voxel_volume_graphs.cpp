@@ -2,6 +2,7 @@
 #include "realtime/voxel_volume.h"
 
 #include "passes/occupancy/occupancy.h"
+#include "passes/shadow_cones/shadow_cones.h"
 
 namespace heliodon::realtime {
 namespace {
@@ -47,6 +48,7 @@ VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
         one.constants = &cascade->constants;
         one.outdated = &outdated_;
         one.keeps_light = &keeps_light_;
+        one.swapped = &swapped_;
         one.shown = {import(cascade->shown_numbers), import(cascade->shown_cells), import(cascade->shown_levels),
                      import(cascade->shown_gathered)};
         one.surfaces = {import(cascade->numbers), import(cascade->cells), import(cascade->records), import(cascade->tiles),
@@ -133,6 +135,22 @@ Result<void> VoxelVolume::build_surface_graphs(const Source& source) {
     return {};
 }
 
+Result<void> VoxelVolume::build_lit_bounce(const Source& source, const std::function<Result<void>(VolumeGraph&, bool)>& add_volume) {
+    if (!source.lighting.shadows_traced) return {};
+    VolumeGraph lit = begin_graph(source);
+    for (const auto& cascade : lit.cascades) {
+        const auto shadows = passes::voxel_shadows(lit.graph, pipelines_, source.inputs, source.lighting, cascade, lit.images);
+        if (!shadows) return tl::unexpected(shadows.error());
+        if (auto done = passes::add_gather(lit.graph, pipelines_, source.inputs, shown_inputs_, cascade, lit.images, &*shadows); !done)
+            return done;
+        if (auto done = passes::add_direct_light(lit.graph, pipelines_, source.inputs, source.lighting, cascade, lit.shadow_maps,
+                                                 lit.images, shadows->shares); !done)
+            return done;
+    }
+    if (auto done = add_volume(lit, false); !done) return done;
+    return finish_graph(steps_->lit_bounce, lit, source);
+}
+
 Result<void> VoxelVolume::build_graphs(const Source& source) {
     if (auto done = build_surface_graphs(source); !done) return done;
     const auto begin = [&] { return begin_graph(source); };
@@ -173,6 +191,7 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
         if (auto done = passes::add_gather(bounce.graph, pipelines_, source.inputs, shown_inputs_, cascade, bounce.images); !done) return done;
     if (auto done = add_volume(bounce, false); !done) return done;
     if (auto done = finish(steps_->bounce, bounce); !done) return done;
+    if (auto done = build_lit_bounce(source, add_volume); !done) return done;
     passes_known_ = true;
     return {};
 }

@@ -122,6 +122,7 @@ void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade) {
                 context.commands.copy(context.buffer(from), context.buffer(to), context.buffer(to).size());
             };
             keep(cascade.surfaces.numbers, cascade.shown.numbers);
+            if (*cascade.swapped) return;
             keep(cascade.surfaces.cells, cascade.shown.cells);
             keep(cascade.surfaces.levels, cascade.shown.levels);
             if (*cascade.keeps_light) keep(cascade.gathered, cascade.shown.gathered);
@@ -165,15 +166,15 @@ Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, co
 
 Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                               const LightingInputs& lighting, const InjectCascade& cascade, const ShadowMaps& shadow_maps,
-                              const VolumeImages& images) {
+                              const VolumeImages& images, graph::BufferHandle shares) {
     gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
     set_light_constants(constants, scene);
-    graph::BufferHandle shares;
-    if (lighting.shadows_traced) {
-        auto traced = add_voxel_shadows(graph, pipelines, scene, lighting, cascade, images);
+    constants[17] = lighting.shadows_traced ? 1 : 0;
+    if (lighting.shadows_traced && !shares) {
+        auto traced = voxel_shadows(graph, pipelines, scene, lighting, cascade, images);
         if (!traced) return tl::unexpected(traced.error());
-        shares = *traced;
-        constants[17] = 1;
+        graph.add_pass("inject shadow cones", PassKind::compute, traced->uses, traced->record);
+        shares = traced->shares;
     }
     auto pipeline = pipelines.compute("passes/inject/direct.comp", constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
@@ -213,7 +214,7 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
 }
 
 Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene, const VolumeInputs& volume,
-                        const InjectCascade& cascade, const VolumeImages& images) {
+                        const InjectCascade& cascade, const VolumeImages& images, const VoxelShadows* beside) {
     auto pipeline = pipelines.compute("passes/inject/gather.comp", cone_constants(volume));
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
@@ -226,8 +227,11 @@ Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const Sc
             pass.read(cascade.surfaces.records, Usage::storage_read);
             read_volume(pass, images);
             pass.read_write(cascade.gathered, Usage::storage_read_write);
+            if (beside) beside->uses(pass);
         },
-        [&scene, &volume, cascade, images, gather = *pipeline](PassContext& context) {
+        [&scene, &volume, cascade, images, gather = *pipeline,
+         record_beside = beside ? beside->record : nullptr](PassContext& context) {
+            if (record_beside) record_beside(context);
             const auto bindings = select_bindings(*gather, scene,
                                                   {{16, context.buffer(cascade.surfaces.numbers)},
                                                    {17, context.buffer(cascade.surfaces.cells)},

@@ -27,6 +27,8 @@ struct InjectCascade {
     const bool* outdated = nullptr;
     /// The light that faces gathered goes with them from the voxels that are shown to those that surfaces fill now.
     const bool* keeps_light = nullptr;
+    /// Cells, levels and gathered light have changed places with those that are shown, instead of being copied.
+    const bool* swapped = nullptr;
     ShownVoxels shown;
     VoxelSurfaces surfaces;
     graph::BufferHandle lit_faces;    ///< LitFacesHeader and the lists
@@ -45,13 +47,16 @@ void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade);
 [[nodiscard]] Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
                                             const VolumeImages& images, bool levels);
 /// Illuminance of one batch of lights (light_first and light_count of the constants) by the resident shadow maps,
-/// or by cones through the volume as it is.
+/// or by cones through the volume as it is, which `shares` holds already where they were traced beside the gathering.
 [[nodiscard]] Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                             const LightingInputs& lighting, const InjectCascade& cascade,
-                                            const ShadowMaps& shadow_maps, const VolumeImages& images);
-/// Replaces `gathered` of the faces asked for by what arrives from the volume and the sky.
+                                            const ShadowMaps& shadow_maps, const VolumeImages& images,
+                                            graph::BufferHandle shares = {});
+struct VoxelShadows;  // passes/shadow_cones
+/// Replaces `gathered` of the faces asked for by what arrives from the volume and the sky. `beside`, if any, is traced at once.
 [[nodiscard]] Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                      const VolumeInputs& volume, const InjectCascade& cascade, const VolumeImages& images);
+                                      const VolumeInputs& volume, const InjectCascade& cascade, const VolumeImages& images,
+                                      const VoxelShadows* beside = nullptr);
 /// Writes level 0: emission, and unless `emission_only` what both illuminances reflect.
 [[nodiscard]] Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
                                         const VolumeImages& images, bool emission_only);

@@ -39,38 +39,36 @@ Result<graph::ImageHandle> add_pixel_shadows(graph::Graph& graph, gpu::Pipelines
     return traced;
 }
 
-Result<graph::BufferHandle> add_voxel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                              const LightingInputs& lighting, const InjectCascade& cascade, const VolumeImages& images) {
+Result<VoxelShadows> voxel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                   const LightingInputs& lighting, const InjectCascade& cascade, const VolumeImages& images) {
     gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
     set_light_constants(constants, scene);
     auto pipeline = pipelines.compute("passes/shadow_cones/shadow_voxels.comp", constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
-    const graph::BufferHandle shares =
-        graph.create_buffer({"light shares of voxels", VkDeviceSize{cascade.surfaces.record_capacity} * sizeof(glm::uvec2)});
-    graph.add_pass(
-        "inject shadow cones", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(cascade.surfaces.numbers, Usage::storage_read);
-            pass.read(cascade.surfaces.numbers, Usage::indirect);
-            pass.read(cascade.surfaces.cells, Usage::storage_read);
-            pass.read(cascade.surfaces.records, Usage::storage_read);
-            read_volume(pass, images);
-            pass.write(shares, Usage::storage_write);
-        },
-        [&scene, &lighting, cascade, shares, shadows = *pipeline](graph::PassContext& context) {
-            const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
-            const auto bindings = select_bindings(*shadows, scene,
-                                                  {{16, numbers},
-                                                   {17, context.buffer(cascade.surfaces.cells)},
-                                                   {18, context.buffer(cascade.surfaces.records)},
-                                                   {19, context.buffer(shares)},
-                                                   {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
-                                                   {21, *lighting.volume->data},
-                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
-                                                   {23, *lighting.volume->occupancy}});
-            context.commands.dispatch_indirect(*shadows, *cascade.constants, bindings, numbers, offsetof(shading::VoxelHeader, record_groups));
-        });
-    return shares;
+    VoxelShadows result;
+    result.shares = graph.create_buffer({"light shares of voxels", VkDeviceSize{cascade.surfaces.record_capacity} * sizeof(glm::uvec2)});
+    result.uses = [cascade, images, shares = result.shares](graph::PassBuilder& pass) {
+        pass.read(cascade.surfaces.numbers, Usage::storage_read);
+        pass.read(cascade.surfaces.numbers, Usage::indirect);
+        pass.read(cascade.surfaces.cells, Usage::storage_read);
+        pass.read(cascade.surfaces.records, Usage::storage_read);
+        read_volume(pass, images);
+        pass.write(shares, Usage::storage_write);
+    };
+    result.record = [&scene, &lighting, cascade, shares = result.shares, shadows = *pipeline](graph::PassContext& context) {
+        const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
+        const auto bindings = select_bindings(*shadows, scene,
+                                              {{16, numbers},
+                                               {17, context.buffer(cascade.surfaces.cells)},
+                                               {18, context.buffer(cascade.surfaces.records)},
+                                               {19, context.buffer(shares)},
+                                               {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
+                                               {21, *lighting.volume->data},
+                                               {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
+                                               {23, *lighting.volume->occupancy}});
+        context.commands.dispatch_indirect(*shadows, *cascade.constants, bindings, numbers, offsetof(shading::VoxelHeader, record_groups));
+    };
+    return result;
 }
 
 }  // namespace heliodon::passes

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "passes/inject/inject.h"
 #include "passes/shade/shade.h"
 
@@ -12,9 +14,13 @@ inline constexpr std::uint32_t most_lights_traced = 4;
 [[nodiscard]] Result<graph::ImageHandle> add_pixel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                                            const LightingInputs& lighting, const Visibility& visibility,
                                                            const VolumeImages& volume, VkExtent2D extent, std::uint32_t spacing);
-/// Eight bytes a record: what of each light reaches the voxel's surfaces.
-[[nodiscard]] Result<graph::BufferHandle> add_voxel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                                            const LightingInputs& lighting, const InjectCascade& cascade,
-                                                            const VolumeImages& images);
+/// The cones of voxels, to be traced by a pass of their own or within another beside its work, while they wait for the volume.
+struct VoxelShadows {
+    graph::BufferHandle shares;  ///< eight bytes a record: what of each light reaches the voxel's surfaces
+    std::function<void(graph::PassBuilder&)> uses;
+    std::function<void(graph::PassContext&)> record;
+};
+[[nodiscard]] Result<VoxelShadows> voxel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                                 const LightingInputs& lighting, const InjectCascade& cascade, const VolumeImages& images);
 
 }  // namespace heliodon::passes
