@@ -19,7 +19,7 @@ Result<graph::ImageHandle> add_pixel_shadows(graph::Graph& graph, gpu::Pipelines
     const graph::ImageHandle traced =
         graph.create_image({.name = "traced shadows", .format = VK_FORMAT_R32G32B32A32_UINT, .extent = cells});
     graph.add_pass(
-        "shadow cones", graph::PassKind::compute,
+        "trace shadows", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(visibility.ids, Usage::sampled);
             read_volume(pass, volume);
