@@ -53,7 +53,7 @@ inline Float luminaire_value(const LaneScene& k, Mask m, Uint i) {
     return word(k.luminaire_table, m, i);
 }
 inline Float shading_table(const LaneScene& k, Mask m, Uint i) {
-    return word(k.shading_tables, m, i);
+    return word(k.shading_tables(), m, i);
 }
 
 // -- vertices

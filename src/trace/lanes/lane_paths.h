@@ -29,7 +29,7 @@ struct LaneScene {
     const std::uint32_t* visible_lights;
     const float* sky_cumulative;
     const float* luminaire_table;
-    const float* shading_tables;
+    const float* (*shading_tables)();  // computed when a path first asks: scenes of plain diffuse surfaces never do
     TextureTable::Contents textures;
     const EmbreeScene* embree;
 };

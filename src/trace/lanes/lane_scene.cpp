@@ -4,6 +4,11 @@
 
 namespace heliodon::trace {
 
+static const float* shading_tables() {
+    static const float* const values = shading::shading_tables().data();
+    return values;
+}
+
 LaneScene lane_scene(const CpuKernel& kernel, const EmbreeScene& scene) {
     const EmitterTable& emitters = kernel.emitter_table;
     return {.frame = &kernel.frame,
@@ -19,7 +24,7 @@ LaneScene lane_scene(const CpuKernel& kernel, const EmbreeScene& scene) {
             .visible_lights = emitters.visible_lights.data(),
             .sky_cumulative = emitters.sky_cumulative.data(),
             .luminaire_table = kernel.flat.luminaire_table().data(),
-            .shading_tables = shading::shading_tables().data(),
+            .shading_tables = shading_tables,
             .textures = kernel.textures.contents(),
             .embree = &scene};
 }
