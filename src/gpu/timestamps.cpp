@@ -51,7 +51,7 @@ Timestamps& Timestamps::operator=(Timestamps&& other) noexcept {
     return *this;
 }
 
-void Timestamps::begin_frame() {
+void Timestamps::begin_frame(Detail detail) {
     static_cast<void>(latest());  // reads what is complete, which frees its pools
     ++number_;
     // The GPU has caught up and yet there is no result: those commands were never submitted.
@@ -71,15 +71,24 @@ void Timestamps::begin_frame() {
     free->number = number_;
     free->names.clear();
     free->pending = true;
+    free->detail = detail;
 }
 
 std::uint32_t Timestamps::begin(Commands& commands, const std::string& name) {
     const auto frame = std::ranges::find(frames_, number_, &Frame::number);
     if (frame == frames_.end() || frame->names.size() >= capacity_) return ~0u;
+    const bool whole = frame->detail == Detail::whole;
+    if (whole && !frame->names.empty()) return ~0u;
     const auto scope = static_cast<std::uint32_t>(frame->names.size());
-    frame->names.push_back(name);
+    frame->names.push_back(whole ? "frame" : name);
     write_timestamp(commands, frame->pool, 2 * scope);
-    return scope;
+    return whole ? ~0u : scope;
+}
+
+void Timestamps::end_frame(Commands& commands) {
+    const auto frame = std::ranges::find(frames_, number_, &Frame::number);
+    if (frame == frames_.end() || frame->detail == Detail::scopes || frame->names.empty()) return;
+    write_timestamp(commands, frame->pool, 1);
 }
 
 void Timestamps::end(Commands& commands, std::uint32_t scope) {

@@ -32,9 +32,13 @@ public:
     Timestamps(Timestamps&& other) noexcept;
     Timestamps& operator=(Timestamps&& other) noexcept;
 
-    void begin_frame();
+    /// What is timed of a frame: each scope, which keeps work that could overlap a little apart, or its beginning and end.
+    enum class Detail : std::uint8_t { scopes, whole };
+    void begin_frame(Detail detail = Detail::scopes);
     [[nodiscard]] std::uint32_t begin(Commands& commands, const std::string& name);
     void end(Commands& commands, std::uint32_t scope);
+    /// After the last scope of a frame of which the whole is timed.
+    void end_frame(Commands& commands);
 
     /// The newest frame whose times are known; frame 0 with no scopes before there is one. Never waits.
     [[nodiscard]] const FrameTimes& latest();
@@ -47,6 +51,7 @@ private:
         std::uint64_t number = 0;
         std::vector<std::string> names;
         bool pending = false;
+        Detail detail = Detail::scopes;
     };
     [[nodiscard]] bool read(Frame& frame, VkQueryResultFlags flags);
     void reset();

@@ -282,7 +282,7 @@ Result<void> FrameRenderer::build_frame_graph() {
 Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample& sample, std::size_t batch, PassTimes* times) {
     auto commands = device_.begin_commands("frame");
     if (!commands) return tl::unexpected(commands.error());
-    timestamps_.begin_frame();
+    timestamps_.begin_frame(sample.timed_whole ? gpu::Timestamps::Detail::whole : gpu::Timestamps::Detail::scopes);
     if (sample.cone_traced && plan_.batches.size() == 1)
         if (auto done = record_volume(*commands, sample, batch); !done) return done;
     if (auto done = record_shadows(*commands, sample, batch, &timestamps_); !done) return done;
@@ -310,6 +310,7 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
     // Batches of lights add up to one picture: it adapts once.
     set_display(camera, {sample.display.sample_scale, batch + 1 == plan_.batches.size() ? sample.display.seconds : 0});
     if (auto done = frame_executor_->execute(*commands, &timestamps_); !done) return done;
+    timestamps_.end_frame(*commands);
     return submit(std::move(*commands), times);
 }
 

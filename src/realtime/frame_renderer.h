@@ -33,6 +33,7 @@ struct FrameSample {
     std::uint32_t shadow_index = 0;  ///< shadow maps are rendered anew where this changes
     bool jitter_shadows = false;     ///< move the shadow maps' texel grid by `shadow_index`, and look up single texels
     bool force_shadows = false;      ///< render them although nothing changed (for timing)
+    bool timed_whole = false;        ///< its beginning and end, instead of its passes
     bool environment = true;
     bool measures = false;           ///< light at points, not a picture: shadow maps as fine as they get
     bool cone_traced = false;        ///< indirect light and the sky by cones through the voxel volume

@@ -82,12 +82,18 @@ struct TimeSeries {
     std::vector<double> totals, cpu;
 
     void add(const PassTimes& times, double cpu_ms) {
+        add_passes(times);
+        add_whole(times, cpu_ms);
+    }
+    void add_passes(const PassTimes& times) {
         std::map<std::string, double> frame;  // a pass may run several times in it
         for (const PassTime& pass : times.passes) {
             if (!by_pass.contains(pass.name) && !frame.contains(pass.name)) order.push_back(pass.name);
             frame[pass.name] += pass.gpu_ms;
         }
         for (const auto& [name, gpu_ms] : frame) by_pass[name].push_back(gpu_ms);
+    }
+    void add_whole(const PassTimes& times, double cpu_ms) {
         totals.push_back(times.total_ms);
         cpu.push_back(cpu_ms);
     }
@@ -157,8 +163,10 @@ struct RealtimeRenderer::State {
 
     Result<void> time_frames(const Camera& camera, const RealtimeOptions& options, RealtimeStatistics& statistics) {
         TimeSeries series;
-        for (int i = 0; i < warm_up_frames + options.frames_timed; ++i) {
-            FrameSample sample = still_sample(options, i, warm_up_frames + options.frames_timed);
+        // Timestamps between passes keep apart what could overlap: the frame's own time is that of as many frames without.
+        for (int i = 0; i < warm_up_frames + 2 * options.frames_timed; ++i) {
+            FrameSample sample = still_sample(options, i, warm_up_frames + 2 * options.frames_timed);
+            sample.timed_whole = i >= warm_up_frames + options.frames_timed;
             sample.jitter_shadows = false;
             sample.shadow_index = 0;
             sample.force_shadows = true;
@@ -170,7 +178,8 @@ struct RealtimeRenderer::State {
             const std::chrono::duration<double, std::milli> cpu = std::chrono::steady_clock::now() - begin;
             if (auto done = device->wait_idle(); !done) return done;
             times = frames->latest_times();
-            if (i >= warm_up_frames) series.add(times, cpu.count());
+            if (sample.timed_whole) series.add_whole(times, cpu.count());
+            else if (i >= warm_up_frames) series.add_passes(times);
         }
         series.write(statistics);
         return {};

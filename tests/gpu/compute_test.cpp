@@ -195,8 +195,8 @@ TEST_F(Compute, BindsMoreResourcesThanCanBePushed) {
 TEST_F(Compute, IsTimedByScope) {
     Timestamps timestamps = value_of(Timestamps::create(device()));
     const Buffer values = buffer("values", 4096 * 4);
-    const auto frame = [&](std::uint32_t rounds) {
-        timestamps.begin_frame();
+    const auto frame = [&](std::uint32_t rounds, Timestamps::Detail detail = Timestamps::Detail::scopes) {
+        timestamps.begin_frame(detail);
         auto commands = value_of(device().begin_commands("timed"));
         const std::uint32_t first = timestamps.begin(commands, "short");
         commands.dispatch_threads(compute("work.comp", {{0, 64}, {1, 1}}), NoPushConstants{}, {values}, {4096, 1, 1});
@@ -206,6 +206,7 @@ TEST_F(Compute, IsTimedByScope) {
         commands.dispatch_threads(compute("work.comp", {{0, 64}, {1, rounds}}), NoPushConstants{}, {values},
                                   {4096, 1, 1});
         timestamps.end(commands, second);
+        timestamps.end_frame(commands);
         return value_of(device().submit(std::move(commands)));
     };
     frame(20000);
@@ -215,6 +216,12 @@ TEST_F(Compute, IsTimedByScope) {
     EXPECT_EQ(waited.scopes[1].name, "long");
     EXPECT_GT(waited.scopes[1].milliseconds, waited.scopes[0].milliseconds);
     EXPECT_GE(waited.total_milliseconds, waited.scopes[0].milliseconds + waited.scopes[1].milliseconds - 1e-6);
+
+    frame(20000, Timestamps::Detail::whole);
+    const FrameTimes whole = value_of(timestamps.wait());
+    ASSERT_EQ(whole.scopes.size(), 1u) << "the frame's own time, without its parts";
+    EXPECT_EQ(whole.scopes[0].name, "frame");
+    EXPECT_GT(whole.total_milliseconds, waited.scopes[0].milliseconds);
 
     TimelineValue last = 0;
     for (int i = 0; i < 6; ++i) last = frame(10);
