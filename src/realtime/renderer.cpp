@@ -163,10 +163,10 @@ struct RealtimeRenderer::State {
 
     Result<void> time_frames(const Camera& camera, const RealtimeOptions& options, RealtimeStatistics& statistics) {
         TimeSeries series;
-        // Timestamps between passes keep apart what could overlap: the frame's own time is that of as many frames without.
+        // Timestamps between passes keep apart what could overlap: the frame's own time is that of every other frame, without.
         for (int i = 0; i < warm_up_frames + 2 * options.frames_timed; ++i) {
             FrameSample sample = still_sample(options, i, warm_up_frames + 2 * options.frames_timed);
-            sample.timed_whole = i >= warm_up_frames + options.frames_timed;
+            sample.timed_whole = i >= warm_up_frames && (i - warm_up_frames) % 2 == 1;
             sample.jitter_shadows = false;
             sample.shadow_index = 0;
             sample.force_shadows = true;

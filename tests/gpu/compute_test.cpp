@@ -226,7 +226,7 @@ TEST_F(Compute, IsTimedByScope) {
     TimelineValue last = 0;
     for (int i = 0; i < 6; ++i) last = frame(10);
     expect_ok(device().wait(last));
-    EXPECT_EQ(timestamps.latest().frame, 7u);
+    EXPECT_EQ(timestamps.latest().frame, 8u);
 }
 
 }  // namespace

@@ -298,7 +298,7 @@ Result<void> render_frame(Renderer& renderer, Scene& scene, const RenderOptions&
                                     options.outputs.size() == 1 ? options.outputs[0] + " is" : "the outputs are",
                                     output ? "and --resume goes on from " + *output : "which only an .exr can be gone on from"));
     }
-    rendered->statistics["ev100"] = rendered->picture.ev100;
+    if (display.exposure.mode != ExposureMode::camera) rendered->statistics["ev100"] = rendered->picture.ev100;
     if (!options.probes.empty()) {
         auto readings = probe(scene, *camera, rendered->picture, options.probes, renderer.probes(scene));
         if (!readings) return tl::unexpected(readings.error());
