@@ -163,23 +163,26 @@ struct RealtimeRenderer::State {
 
     Result<void> time_frames(const Camera& camera, const RealtimeOptions& options, RealtimeStatistics& statistics) {
         TimeSeries series;
-        // Timestamps between passes keep apart what could overlap: the frame's own time is that of every other frame, without.
-        for (int i = 0; i < warm_up_frames + 2 * options.frames_timed; ++i) {
-            FrameSample sample = still_sample(options, i, warm_up_frames + 2 * options.frames_timed);
-            sample.timed_whole = i >= warm_up_frames && (i - warm_up_frames) % 2 == 1;
+        // Timestamps between passes keep apart what a GPU could overlap: its frame's own time is that of every other frame,
+        // without. A CPU overlaps none.
+        const bool overlaps = !device->info().is_cpu;
+        const int count = warm_up_frames + (overlaps ? 2 : 1) * options.frames_timed;
+        for (int i = 0; i < count; ++i) {
+            FrameSample sample = still_sample(options, i, count);
+            sample.timed_whole = overlaps && i >= warm_up_frames && (i - warm_up_frames) % 2 == 1;
             sample.jitter_shadows = false;
             sample.shadow_index = 0;
             sample.force_shadows = true;
             sample.count = 0;  // as in motion: nothing is left to later frames
             sample.cone_traced = options.gi == "vct";
-            PassTimes times;
             const auto begin = std::chrono::steady_clock::now();
             if (auto done = frames->render(camera, sample); !done) return done;
             const std::chrono::duration<double, std::milli> cpu = std::chrono::steady_clock::now() - begin;
             if (auto done = device->wait_idle(); !done) return done;
-            times = frames->latest_times();
-            if (sample.timed_whole) series.add_whole(times, cpu.count());
-            else if (i >= warm_up_frames) series.add_passes(times);
+            if (i < warm_up_frames) continue;
+            const PassTimes times = frames->latest_times();
+            if (!sample.timed_whole) series.add_passes(times);
+            if (sample.timed_whole || !overlaps) series.add_whole(times, cpu.count());
         }
         series.write(statistics);
         return {};
