@@ -2,25 +2,17 @@
 
 #include <imgui.h>
 
+#include "app/editor/choice.h"
 #include "core/white_balance.h"
 
 namespace heliodon::editor {
 namespace {
 
-/// One of the values of an enumeration, numbered from 0; `names` in that order, each ended by a zero.
-template <class Enumeration>
-bool choice(const char* label, Enumeration& value, const char* names) {
-    int index = static_cast<int>(value);
-    if (!ImGui::Combo(label, &index, names)) return false;
-    value = static_cast<Enumeration>(index);
-    return true;
-}
-
 bool edit_exposure(ExposureSettings& exposure) {
-    bool edited = choice("exposed by", exposure.mode, "the camera\0a light meter\0the picture's key\0");
+    bool edited = named_choice("exposed by", exposure.mode, "the camera\0a light meter\0the picture's key\0");
     edited |= ImGui::SliderFloat("compensation", &exposure.compensation_ev, -5.0f, 5.0f, "%+.2f EV");
     if (exposure.mode == ExposureMode::camera) return edited;
-    edited |= choice("metering", exposure.pattern, "average\0centre-weighted\0spot\0");
+    edited |= named_choice("metering", exposure.pattern, "average\0centre-weighted\0spot\0");
     edited |= ImGui::Checkbox("arithmetic mean", &exposure.arithmetic_mean);
     glm::vec2 percent = exposure.percentiles * 100.0f;
     if (ImGui::DragFloatRange2("percentiles", &percent.x, &percent.y, 0.1f, 0.0f, 100.0f, "%.1f %%") && percent.x < percent.y)
@@ -31,7 +23,7 @@ bool edit_exposure(ExposureSettings& exposure) {
 }
 
 bool edit_tone(ToneSettings& tone) {
-    bool edited = choice("tone curve", tone.curve, "linear\0Hable\0Reinhard\0ACES (Hill)\0ACES (Narkowicz)\0AgX\0Khronos PBR Neutral\0");
+    bool edited = named_choice("tone curve", tone.curve, "linear\0Hable\0Reinhard\0ACES (Hill)\0ACES (Narkowicz)\0AgX\0Khronos PBR Neutral\0");
     if (tone.curve != ToneCurve::hable && tone.curve != ToneCurve::reinhard) {
         if (edited) tone.white = 0, tone.estimate_white = false;
         return edited;

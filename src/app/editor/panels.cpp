@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/editor/choice.h"
 #include "app/editor/display_panel.h"
 #include "scene/render_limits.h"
 
@@ -154,15 +155,6 @@ bool number_choice(const char* label, int& value, std::initializer_list<int> cho
         if (ImGui::Selectable(std::to_string(choice).c_str(), choice == value)) value = choice;
     ImGui::EndCombo();
     return value != before;
-}
-
-/// One of the values of an enumeration, numbered from 0; `names` in that order, each ended by a zero.
-template <class Enumeration>
-bool named_choice(const char* label, Enumeration& value, const char* names) {
-    int index = static_cast<int>(value);
-    if (!ImGui::Combo(label, &index, names)) return false;
-    value = static_cast<Enumeration>(index);
-    return true;
 }
 
 bool edit_volume(RenderSettings& settings) {

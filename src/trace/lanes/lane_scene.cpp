@@ -4,10 +4,14 @@
 
 namespace heliodon::trace {
 
-static const float* shading_tables() {
+namespace {
+
+const float* shading_tables() {
     static const float* const values = shading::shading_tables().data();
     return values;
 }
+
+}  // namespace
 
 LaneScene lane_scene(const CpuKernel& kernel, const EmbreeScene& scene) {
     const EmitterTable& emitters = kernel.emitter_table;
