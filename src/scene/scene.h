@@ -19,6 +19,7 @@
 #include "scene/light.h"
 #include "scene/material.h"
 #include "scene/sun_position.h"
+#include "scene/sun_shadow_settings.h"
 
 namespace heliodon {
 
@@ -193,6 +194,8 @@ struct RenderSettings {
     ConeTracingSettings vct;
     DisplaySettings display;
     int shadow_map_size = 0;  ///< texels an edge of a shadow map; 0: as the picture can tell, 2048 at most
+    SunShadows sun_shadows = SunShadows::cascades;
+    ShadowCascadeSettings shadow_cascades;
 };
 
 /// One entry of the journal: which table, which slot, what about it changed.

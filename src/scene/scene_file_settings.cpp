@@ -150,6 +150,17 @@ ConeTracingSettings read_cone_tracing(const JsonCursor& cursor) {
     return settings;
 }
 
+ShadowCascadeSettings read_shadow_cascades(const JsonCursor& cursor) {
+    ObjectReader object(cursor);
+    ShadowCascadeSettings settings;
+    object.read("count", settings.count, 1, most_shadow_cascades);
+    object.read("split", settings.split, unit_interval);
+    object.read("blend", settings.blend, Range{.low = 0, .high = 0.5});
+    object.read("distance_m", settings.distance_m, not_negative);
+    object.finish();
+    return settings;
+}
+
 }  // namespace
 
 Camera read_camera(const JsonCursor& cursor) {
@@ -246,6 +257,9 @@ RenderSettings read_render_settings(const JsonCursor& cursor) {
     if (const auto vct = object.find("vct")) settings.vct = read_cone_tracing(*vct);
     settings.display = read_display(object);
     object.read("shadow_map_size", settings.shadow_map_size, smallest_shadow_map, largest_shadow_map);
+    if (const auto sun_shadows = object.find("sun_shadows"))
+        settings.sun_shadows = sun_shadows->one_of<SunShadows>({{"cascades", SunShadows::cascades}, {"volumes", SunShadows::volumes}});
+    if (const auto cascades = object.find("shadow_cascades")) settings.shadow_cascades = read_shadow_cascades(*cascades);
     object.finish();
     return settings;
 }
