@@ -181,6 +181,18 @@ struct ConeTracingSettings {
     bool operator==(const ConeTracingSettings&) const = default;
 };
 
+/// Without global illumination: what stands for the light that surroundings reflect. An approximation
+/// (docs/accuracy.md): a distant closed shell of the scene's mean albedo, lit by the sun and the sky.
+enum class AmbientLight : std::uint8_t { none, constant, directional };
+
+/// Without global illumination: what the picture shows about a surface hides the sky from it.
+struct AmbientOcclusionSettings {
+    bool on = true;
+    float reach_m = 0;      ///< how far away something still hides it; 0: as far as the picture shows
+    float thickness_m = 0;  ///< how far what is seen goes on behind its front; 0: without end
+    bool operator==(const AmbientOcclusionSettings&) const = default;
+};
+
 /// The scene file's `render` block.
 struct RenderSettings {
     std::string gi = "none";
@@ -193,6 +205,8 @@ struct RenderSettings {
     Integrator integrator = Integrator::path;
     ConeTracingSettings vct;
     DisplaySettings display;
+    AmbientLight ambient = AmbientLight::none;
+    AmbientOcclusionSettings ambient_occlusion;
     int shadow_map_size = 0;  ///< texels an edge of a shadow map; 0: as the picture can tell, 2048 at most
     SunShadows sun_shadows = SunShadows::cascades;
     ShadowCascadeSettings shadow_cascades;

@@ -161,6 +161,20 @@ ShadowCascadeSettings read_shadow_cascades(const JsonCursor& cursor) {
     return settings;
 }
 
+AmbientOcclusionSettings read_ambient_occlusion(const JsonCursor& cursor) {
+    AmbientOcclusionSettings settings;
+    if (cursor.json().is_boolean()) {
+        settings.on = cursor.json().get<bool>();
+        return settings;
+    }
+    if (!cursor.json().is_object()) cursor.refuse("true, false or an object");
+    ObjectReader object(cursor);
+    object.read("reach_m", settings.reach_m, not_negative);
+    object.read("thickness_m", settings.thickness_m, not_negative);
+    object.finish();
+    return settings;
+}
+
 }  // namespace
 
 Camera read_camera(const JsonCursor& cursor) {
@@ -255,6 +269,12 @@ RenderSettings read_render_settings(const JsonCursor& cursor) {
         settings.integrator = integrator->one_of<Integrator>(
             {{"path", Integrator::path}, {"bidirectional", Integrator::bidirectional}});
     if (const auto vct = object.find("vct")) settings.vct = read_cone_tracing(*vct);
+    if (const auto ambient = object.find("ambient"))
+        settings.ambient = ambient->one_of<AmbientLight>({{"none", AmbientLight::none},
+                                                          {"constant", AmbientLight::constant},
+                                                          {"directional", AmbientLight::directional}});
+    if (const auto occlusion = object.find("ambient_occlusion"))
+        settings.ambient_occlusion = read_ambient_occlusion(*occlusion);
     settings.display = read_display(object);
     object.read("shadow_map_size", settings.shadow_map_size, smallest_shadow_map, largest_shadow_map);
     if (const auto sun_shadows = object.find("sun_shadows"))
