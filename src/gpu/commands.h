@@ -44,6 +44,7 @@ struct ColorAttachment {
     VkClearColorValue clear{};
     ImageView resolve;  ///< of a multisampled `view`; none by default
 };
+/// And the stencil, where the format has one: it is cleared to 0.
 struct DepthAttachment {
     ImageView view;
     VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_CLEAR;

@@ -7,6 +7,7 @@
 #include "gpu/command_recording.h"
 #include "gpu/commands.h"
 #include "gpu/device.h"
+#include "gpu/format.h"
 
 namespace heliodon::gpu {
 namespace {
@@ -235,10 +236,13 @@ void Commands::begin_rendering(const Rendering& rendering) {
         color.push_back(info);
     }
     VkRenderingAttachmentInfo depth{};
+    bool stencil = false;
     if (rendering.depth) {
         depth = attachment(rendering.depth->view);
-        depth.imageLayout = rendering.depth->read_only ? VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL
-                                                       : VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+        stencil = rendering.depth->view.image && has_stencil(rendering.depth->view.image->format());
+        depth.imageLayout = stencil                       ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL
+                            : rendering.depth->read_only ? VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL
+                                                         : VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
         depth.loadOp = rendering.depth->load;
         depth.clearValue.depthStencil.depth = rendering.depth->clear;
         if (rendering.depth->read_only) depth.storeOp = VK_ATTACHMENT_STORE_OP_NONE;
@@ -260,6 +264,7 @@ void Commands::begin_rendering(const Rendering& rendering) {
     info.colorAttachmentCount = static_cast<std::uint32_t>(color.size());
     info.pColorAttachments = color.data();
     info.pDepthAttachment = rendering.depth ? &depth : nullptr;
+    info.pStencilAttachment = stencil ? &depth : nullptr;
     vkCmdBeginRendering(handle(), &info);
     recording_->rendering = true;
     set_viewport(area);

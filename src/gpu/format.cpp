@@ -22,6 +22,10 @@ constexpr FormatInfo depth(std::uint32_t bytes) {
     return {bytes, 1, 1, FormatKind::depth, VK_IMAGE_ASPECT_DEPTH_BIT};
 }
 
+constexpr FormatInfo depth_and_stencil(std::uint32_t bytes) {
+    return {bytes, 1, 2, FormatKind::depth, VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT};
+}
+
 constexpr auto floating = FormatKind::floating;
 constexpr auto normalized = FormatKind::normalized;
 constexpr auto integer = FormatKind::integer;
@@ -61,6 +65,7 @@ constexpr std::array formats = {
     NamedFormat{VK_FORMAT_E5B9G9R9_UFLOAT_PACK32, "E5B9G9R9_UFLOAT", texel(4, 3, floating)},
     NamedFormat{VK_FORMAT_D16_UNORM, "D16_UNORM", depth(2)},
     NamedFormat{VK_FORMAT_D32_SFLOAT, "D32_SFLOAT", depth(4)},
+    NamedFormat{VK_FORMAT_D32_SFLOAT_S8_UINT, "D32_SFLOAT_S8_UINT", depth_and_stencil(5)},
     NamedFormat{VK_FORMAT_BC1_RGBA_UNORM_BLOCK, "BC1_RGBA_UNORM", block(8, 4, normalized)},
     NamedFormat{VK_FORMAT_BC1_RGBA_SRGB_BLOCK, "BC1_RGBA_SRGB", block(8, 4, normalized)},
     NamedFormat{VK_FORMAT_BC3_UNORM_BLOCK, "BC3_UNORM", block(16, 4, normalized)},

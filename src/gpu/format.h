@@ -18,6 +18,9 @@ struct FormatInfo {
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
 };
 [[nodiscard]] FormatInfo format_info(VkFormat format);
+[[nodiscard]] inline bool has_stencil(VkFormat format) {
+    return (format_info(format).aspect & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
+}
 [[nodiscard]] const char* format_name(VkFormat format);
 
 /// Bytes of one mip level of one layer, tightly packed.

@@ -8,6 +8,7 @@
 
 #include "gpu/bindless_textures.h"
 #include "gpu/device.h"
+#include "gpu/format.h"
 
 namespace heliodon::gpu {
 namespace {
@@ -69,7 +70,8 @@ VkPipelineColorBlendAttachmentState blend_state(Blend blend) {
     VkPipelineColorBlendAttachmentState state{};
     state.colorWriteMask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    state.blendEnable = blend != Blend::none;
+    if (blend == Blend::keep) state.colorWriteMask = 0;
+    state.blendEnable = blend != Blend::none && blend != Blend::keep;
     state.srcColorBlendFactor = blend == Blend::alpha ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
     state.dstColorBlendFactor = blend == Blend::additive ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
     state.colorBlendOp = VK_BLEND_OP_ADD;
@@ -77,6 +79,11 @@ VkPipelineColorBlendAttachmentState blend_state(Blend blend) {
     state.dstAlphaBlendFactor = state.dstColorBlendFactor;
     state.alphaBlendOp = VK_BLEND_OP_ADD;
     return state;
+}
+
+VkStencilOpState stencil_state(const StencilSide& side) {
+    constexpr std::uint32_t all_bits = 0xff;
+    return {VK_STENCIL_OP_KEEP, side.pass, side.depth_fail, side.compare, all_bits, all_bits, 0};
 }
 
 /// The fixed-function state of a graphics pipeline; Vulkan's structures point into this object.
@@ -135,6 +142,11 @@ private:
         depth_.depthTestEnable = description.depth_format != VK_FORMAT_UNDEFINED && description.depth_test;
         depth_.depthWriteEnable = depth_.depthTestEnable && description.depth_write;
         depth_.depthCompareOp = description.depth_compare;
+        depth_.stencilTestEnable = description.stencil.has_value();
+        if (description.stencil) {
+            depth_.front = stencil_state(description.stencil->front);
+            depth_.back = stencil_state(description.stencil->back);
+        }
     }
 
     void set_output(const GraphicsDescription& description) {
@@ -147,6 +159,7 @@ private:
         rendering_.colorAttachmentCount = static_cast<std::uint32_t>(description.color_formats.size());
         rendering_.pColorAttachmentFormats = description.color_formats.data();
         rendering_.depthAttachmentFormat = description.depth_format;
+        if (has_stencil(description.depth_format)) rendering_.stencilAttachmentFormat = description.depth_format;
     }
 
     std::array<VkDynamicState, 2> dynamic_states_{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};

@@ -84,9 +84,19 @@ private:
 
 enum class Blend {
     none,
+    keep,           ///< nothing is written
     alpha,          ///< source-over, straight alpha
     premultiplied,  ///< source-over, premultiplied alpha
     additive,
+};
+
+/// What becomes of the stencil under a fragment on one side of a triangle. The reference is 0.
+struct StencilSide {
+    VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
+    VkStencilOp pass = VK_STENCIL_OP_KEEP, depth_fail = VK_STENCIL_OP_KEEP;
+};
+struct StencilTest {
+    StencilSide front, back;
 };
 
 /// Defaults: vertices pulled from buffers by the shader, triangles, back faces culled with counter-clockwise fronts
@@ -105,6 +115,7 @@ struct GraphicsDescription {
     VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     bool depth_test = true, depth_write = true;
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
+    std::optional<StencilTest> stencil;  ///< the depth format must have one
     bool depth_clamp = false;
     float depth_bias_constant = 0, depth_bias_slope = 0;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;

@@ -35,6 +35,8 @@ const char* usage_name(Usage usage) {
             return "color_attachment";
         case Usage::depth_attachment:
             return "depth_attachment";
+        case Usage::depth_stencil_attachment:
+            return "depth_stencil_attachment";
         case Usage::depth_read:
             return "depth_read";
         case Usage::index_buffer:
@@ -79,6 +81,10 @@ gpu::Access access_of(Usage usage, PassKind kind, bool reads, bool writes) {
             return {depth_stages,
                     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
                     VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL};
+        case Usage::depth_stencil_attachment:
+            return {depth_stages,
+                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                    VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
         case Usage::depth_read:
             return {depth_stages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
                     VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
@@ -115,6 +121,7 @@ VkImageUsageFlags image_usage(Usage usage) {
         case Usage::color_attachment:
             return VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
         case Usage::depth_attachment:
+        case Usage::depth_stencil_attachment:
         case Usage::depth_read:
             return VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
         case Usage::transfer_read:
@@ -151,7 +158,7 @@ VkBufferUsageFlags buffer_usage(Usage usage) {
 
 bool usage_writes(Usage usage) {
     return usage == Usage::storage_write || usage == Usage::storage_read_write || usage == Usage::color_attachment ||
-           usage == Usage::depth_attachment || usage == Usage::transfer_write;
+           usage == Usage::depth_attachment || usage == Usage::depth_stencil_attachment || usage == Usage::transfer_write;
 }
 
 bool usage_reads(Usage usage) {

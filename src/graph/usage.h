@@ -16,6 +16,7 @@ enum class Usage {
     uniform,             ///< uniform buffer
     color_attachment,    ///< written; declared with read_write() it also keeps what is there (load, blending)
     depth_attachment,    ///< tested and written
+    depth_stencil_attachment,  ///< likewise, with a stencil
     depth_read,          ///< tested only
     index_buffer,
     vertex_buffer,

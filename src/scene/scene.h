@@ -210,6 +210,7 @@ struct RenderSettings {
     int shadow_map_size = 0;  ///< texels an edge of a shadow map; 0: as the picture can tell, 2048 at most
     SunShadows sun_shadows = SunShadows::cascades;
     ShadowCascadeSettings shadow_cascades;
+    ShadowVolumeSettings shadow_volumes;
 };
 
 /// One entry of the journal: which table, which slot, what about it changed.

@@ -161,6 +161,15 @@ ShadowCascadeSettings read_shadow_cascades(const JsonCursor& cursor) {
     return settings;
 }
 
+ShadowVolumeSettings read_shadow_volumes(const JsonCursor& cursor) {
+    ObjectReader object(cursor);
+    ShadowVolumeSettings settings;
+    object.read("map_size", settings.map_size, 16, 8192);
+    object.read("significant_px", settings.significant_px, Range{.low = 1e-4, .high = 1e4});
+    object.finish();
+    return settings;
+}
+
 AmbientOcclusionSettings read_ambient_occlusion(const JsonCursor& cursor) {
     AmbientOcclusionSettings settings;
     if (cursor.json().is_boolean()) {
@@ -280,6 +289,7 @@ RenderSettings read_render_settings(const JsonCursor& cursor) {
     if (const auto sun_shadows = object.find("sun_shadows"))
         settings.sun_shadows = sun_shadows->one_of<SunShadows>({{"cascades", SunShadows::cascades}, {"volumes", SunShadows::volumes}});
     if (const auto cascades = object.find("shadow_cascades")) settings.shadow_cascades = read_shadow_cascades(*cascades);
+    if (const auto volumes = object.find("shadow_volumes")) settings.shadow_volumes = read_shadow_volumes(*volumes);
     object.finish();
     return settings;
 }

@@ -18,4 +18,11 @@ struct ShadowCascadeSettings {
     bool operator==(const ShadowCascadeSettings&) const = default;
 };
 
+/// The scene file's `render.shadow_volumes`: how the triangles are found that the sun lights.
+struct ShadowVolumeSettings {
+    int map_size = 1024;               ///< texels an edge of the map of the whole scene, and of each part that is looked at closer
+    float significant_px = 0.015625f;  ///< projected area in texels of the whole scene's map from which triangles are looked for
+    bool operator==(const ShadowVolumeSettings&) const = default;
+};
+
 }  // namespace heliodon

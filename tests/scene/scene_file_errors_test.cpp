@@ -298,6 +298,8 @@ const std::vector<BadFile>& bad_files() {
          "$.render.shadow_cascades.blend: expected a number from 0 to 0.5, found 0.6"},
         {"UnknownShadowCascadeKey", R"("render": {"shadow_cascades": {"near": 1}})",
          "$.render.shadow_cascades.near: unknown key; expected count, split, blend, distance_m"},
+        {"ShadowVolumesOfNothing", R"("render": {"shadow_volumes": {"significant_px": 0}})",
+         "$.render.shadow_volumes.significant_px: expected a number from 0.0001 to 10000, found 0"},
         {"ConeTracingNotAnObject", R"("render": {"vct": true})", "$.render.vct: expected an object, found true"},
         {"UnknownEffect", R"("render": {"vct": {"gloss": true}})",
          "$.render.vct.gloss: unknown key; expected diffuse, specular, refraction, shadows, ao, cones, "

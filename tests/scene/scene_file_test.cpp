@@ -402,6 +402,10 @@ TEST(SceneFile, ReadsHowTheSunCastsItsShadows) {
     const RenderSettings volumes = parsed(R"({"heliodon": 1, "render": {"sun_shadows": "volumes"}})").render_settings();
     EXPECT_EQ(volumes.sun_shadows, SunShadows::volumes);
     EXPECT_EQ(volumes.shadow_cascades, ShadowCascadeSettings{});
+    EXPECT_EQ(volumes.shadow_volumes, ShadowVolumeSettings{});
+    EXPECT_EQ(parsed(R"({"heliodon": 1, "render": {"shadow_volumes": {"map_size": 256, "significant_px": 2}}})")
+                  .render_settings().shadow_volumes,
+              (ShadowVolumeSettings{.map_size = 256, .significant_px = 2}));
     const RenderSettings cascades = parsed(R"({"heliodon": 1, "render": {"sun_shadows": "cascades",
         "shadow_cascades": {"count": 8, "split": 1, "blend": 0.25, "distance_m": 100}}})").render_settings();
     EXPECT_EQ(cascades.sun_shadows, SunShadows::cascades);
@@ -577,7 +581,8 @@ TEST(SceneOverride, ErrorsNameTheOverride) {
     const auto error = [](std::string path, std::string value) { return error_of(overridable, {{path, value}}); };
     EXPECT_EQ(error("render.voxel", "2"),
               "--set render.voxel=2: unknown key; expected gi, voxels, cascades, bounces, revoxelize, voxelizer, "
-              "rasterizer, integrator, vct, tonemap, exposure, white_balance, shadow_map_size, sun_shadows, shadow_cascades");
+              "rasterizer, integrator, vct, tonemap, exposure, white_balance, shadow_map_size, sun_shadows, shadow_cascades, "
+              "shadow_volumes");
     EXPECT_EQ(error("render.vct.cones", "10"), "--set render.vct.cones=10: expected a multiple of 9, found 10");
     EXPECT_EQ(error("rendr.voxels", "2").substr(0, 33), "--set rendr.voxels=2: unknown key");
     EXPECT_EQ(error("nodes.bulb.light.intensity_cd", "bright"),
