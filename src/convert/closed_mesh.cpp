@@ -26,7 +26,8 @@ std::uint64_t hash(glm::vec3 p) {
     return mix(mix(bits(p.x) << 32 | bits(p.y)) + bits(p.z));
 }
 
-/// For each vertex the first one at its position.
+}  // namespace
+
 Indices weld(const Mesh& mesh) {
     constexpr std::uint32_t none = 0xffffffffu;
     const std::uint64_t mask = std::bit_ceil(2 * mesh.positions.size() + 1) - 1;
@@ -39,6 +40,8 @@ Indices weld(const Mesh& mesh) {
     }
     return first;
 }
+
+namespace {
 
 /// The triangles with three different corners.
 Indices proper_triangles(const Mesh& mesh) {

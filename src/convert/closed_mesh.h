@@ -1,8 +1,14 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "scene/geometry.h"
 
 namespace heliodon::convert {
+
+/// For each vertex the first one at its position.
+[[nodiscard]] std::vector<std::uint32_t> weld(const Mesh& mesh);
 
 /// Whether the triangles bound volumes and face out of them, so that nobody outside sees a rear: with vertices
 /// welded where their positions are equal, each edge is used as often in one direction as in the other, and each

@@ -1,0 +1,51 @@
+// The instances that cast shadows, and their triangles.
+#ifndef HELIODON_CASTERS_GLSL
+#define HELIODON_CASTERS_GLSL
+#include "passes/common/scene_tables.glsl"
+#include "passes/shadow_volumes/shadow_volumes_shared.h"
+
+layout(set = 0, binding = 12, std430) readonly buffer CasterRanges { CasterRange caster_ranges[]; };
+
+CasterRange caster_of_triangle(uint triangle, uint range_count) {
+    uint low = 0u;
+    uint high = range_count;
+    while (high - low > 1u) {
+        const uint middle = (low + high) / 2u;
+        if (caster_ranges[middle].first_triangle <= triangle) low = middle;
+        else high = middle;
+    }
+    return caster_ranges[low];
+}
+
+CasterRange caster_of_edge(uint edge, uint range_count) {
+    uint low = 0u;
+    uint high = range_count;
+    while (high - low > 1u) {
+        const uint middle = (low + high) / 2u;
+        if (caster_ranges[middle].first_edge <= edge) low = middle;
+        else high = middle;
+    }
+    return caster_ranges[low];
+}
+
+uint caster_first_index(CasterRange range, uint triangle) {
+    return geometry_table[instance_table[range.instance].geometry].first_index + 3u * (triangle - range.first_triangle);
+}
+
+vec3[3] caster_corners(CasterRange range, uint triangle) {
+    const InstanceData instance = instance_table[range.instance];
+    const uint positions = geometry_table[instance.geometry].position_offset;
+    const uint first = caster_first_index(range, triangle);
+    vec3 corners[3];
+    for (uint i = 0u; i < 3u; ++i)
+        corners[i] = vec3(instance.object_to_world * vec4(fetch_vec3(positions, index_table[first + i]), 1.0f));
+    return corners;
+}
+
+/// Whether a volume stands behind the triangle.
+bool casts_volume(uint state, uint all_triangles) {
+    if ((state & (caster_toward | caster_away)) == 0u) return false;
+    return all_triangles != 0u ? (state & caster_rear) == 0u : (state & caster_lit) != 0u;
+}
+
+#endif

@@ -1,0 +1,4 @@
+#version 460
+layout(location = 0) out uint shadowed;
+
+void main() { shadowed = 1u; }
