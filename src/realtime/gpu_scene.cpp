@@ -237,6 +237,8 @@ Result<void> GpuScene::upload_geometries(const std::vector<std::uint32_t>& chang
     for (const std::uint32_t index : changed) release_geometry(index);
     allocations_.resize(std::max(count, allocations_.size()));
     geometry_table_.resize(std::max(count, geometry_table_.size()));
+    geometry_revisions_.resize(geometry_table_.size());
+    for (const std::uint32_t index : changed) ++geometry_revisions_[index];
     if (auto reserved = reserve_for(changed); !reserved) return reserved;
     for (const std::uint32_t index : changed) {
         if (!flat_.geometries()[index]) continue;

@@ -80,6 +80,8 @@ public:
     [[nodiscard]] std::uint64_t surface_revision() const { return surfaces_.revision(); }
     /// Which instances changed, and when.
     [[nodiscard]] const MovingInstances& surfaces() const { return surfaces_; }
+    /// By geometry: goes up when its mesh was uploaded anew.
+    [[nodiscard]] const std::vector<std::uint64_t>& geometry_revisions() const { return geometry_revisions_; }
     [[nodiscard]] std::optional<std::uint32_t> sky_slot() const;
 
 private:
@@ -113,6 +115,7 @@ private:
     RangeAllocator vertex_ranges_, index_ranges_;
     std::vector<Allocation> allocations_;
     std::vector<shading::GeometryData> geometry_table_;
+    std::vector<std::uint64_t> geometry_revisions_;
     std::vector<std::optional<LoadedTexture>> textures_;
     std::vector<std::uint32_t> light_shadows_;
     SkyMaps sky_maps_;
