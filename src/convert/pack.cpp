@@ -28,7 +28,7 @@ static_assert(offsetof(MaterialData, anisotropy_axis) == 560 && offsetof(Materia
 static_assert(sizeof(MaterialData) == 592 + 5 * 32);
 static_assert(sizeof(LightData) == 112 && offsetof(LightData, intensity) == 32 && offsetof(LightData, weighted_normal) == 96);
 static_assert(sizeof(InstanceData) == 144);
-static_assert(sizeof(shading::SkyData) == 224 && offsetof(shading::SkyData, sun_direction) == 48 && offsetof(shading::SkyData, daylight) == 80);
+static_assert(sizeof(shading::SkyData) == 240 && offsetof(shading::SkyData, sun_direction) == 48 && offsetof(shading::SkyData, daylight) == 80);
 
 TextureRef pack_texture(const Scene& scene, const TextureUse& use) {
     const bool present = scene.textures().contains(use.texture);
@@ -233,20 +233,23 @@ InstanceData pack_instance(const glm::mat4& world, std::uint32_t geometry, std::
 
 namespace {
 
-/// Lux on a plane facing the sun of a daylight sky.
-glm::dvec3 sun_lux(const Sky& sky) {
-    if (!sky.is_daylight() || !sky.sun_disc) return glm::dvec3(0);
-    return shading::sun_illuminance(sky.turbidity, sky.sun_elevation_rad, sky.sun_angular_diameter_rad);
+std::uint32_t daylight_model(const Sky& sky) {
+    return sky.model == SkyModel::hosek ? shading::sky_model_hosek : shading::sky_model_preetham;
+}
+
+shading::Sunlight sunlight(const Sky& sky) {
+    if (!sky.is_daylight() || !sky.sun_disc) return {};
+    return shading::sunlight(daylight_model(sky), sky.turbidity, sky.sun_elevation_rad, sky.sun_angular_diameter_rad);
 }
 
 }  // namespace
 
 std::optional<LightData> pack_sun(const Sky& sky) {
-    const glm::dvec3 lux = sun_lux(sky);
-    if (!(units::luminance(lux) > 0)) return std::nullopt;
+    const shading::Sunlight sun = sunlight(sky);
+    if (!(units::luminance(sun.normal()) > 0)) return std::nullopt;
     Light light;
     light.type = LightType::directional;
-    light.intensity = glm::vec3(lux);
+    light.intensity = glm::vec3(sun.whole_disc);
     light.direction = -shading::direction_from_azimuth(sky.sun_azimuth_rad, sky.sun_elevation_rad, sky.north_rad);
     light.angular_diameter_rad = sky.sun_angular_diameter_rad;
     LightData data = pack_light(light, glm::mat4(1));
@@ -262,8 +265,8 @@ shading::SkyData pack_sky(const Scene& scene) {
     data.texture_index = shading::no_texture;
     data.north_rad = sky.north_rad;
     if (sky.is_daylight())
-        shading::set_daylight_sky({sky.model == SkyModel::hosek ? shading::sky_model_hosek : shading::sky_model_preetham, sky.turbidity,
-                                   sky.ground_albedo, sky.sun_azimuth_rad, sky.sun_elevation_rad, sun_lux(sky)},
+        shading::set_daylight_sky({daylight_model(sky), sky.turbidity, sky.ground_albedo, sky.sun_azimuth_rad, sky.sun_elevation_rad,
+                                   sunlight(sky)},
                                   data);
     if (sky.model == SkyModel::cie) shading::set_cie_sky(sky.cie_type, sky.zenith_luminance_nits, sky.ground_albedo,
                                                          sky.sun_azimuth_rad, sky.sun_elevation_rad, data);

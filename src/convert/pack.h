@@ -16,7 +16,8 @@ namespace heliodon::convert {
 [[nodiscard]] shading::InstanceData pack_instance(const glm::mat4& world, std::uint32_t geometry, std::uint32_t material,
                                                   bool visible);
 [[nodiscard]] shading::SkyData pack_sky(const Scene& scene);
-/// The sun of a daylight sky as the directional light that it is; none where it has set or the sky shows no disc.
+/// The sun of a daylight sky as the directional light that it is, of its whole disc, what is below the horizon included;
+/// none where it has set or the sky shows no disc.
 [[nodiscard]] std::optional<shading::LightData> pack_sun(const Sky& sky);
 /// The first mip level of `texture` whose sides are within `size_limit` texels (0: no limit).
 [[nodiscard]] std::uint32_t first_level(const Texture& texture, int size_limit);

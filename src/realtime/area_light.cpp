@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "shading/daylight.h"
 #include "shading/light.h"
 #include "shading/luminaire_shape.h"
 #include "shading/sampling.h"
@@ -23,13 +24,25 @@ shading::LightData point_of_luminaire(shading::LightData light, glm::vec2 u) {
 }  // namespace
 
 shading::LightData center_of_area_light(shading::LightData light) {
+    if (light.opening == shading::opening_sun && light.radius > 0) {
+        // Of a setting sun that of what is above the horizon.
+        const glm::vec2 across = glm::vec2(light.axis.x, light.axis.z);
+        const double elevation = std::atan2(-light.axis.y, glm::length(across));
+        const shading::DiscAbove above = shading::disc_above(elevation, light.radius);
+        if (above.share < 1) {
+            const glm::vec2 level = static_cast<float>(std::cos(above.elevation)) * glm::normalize(across);
+            light.axis = {level.x, static_cast<float>(-std::sin(above.elevation)), level.y};
+            light.intensity *= static_cast<float>(above.share);
+        }
+    }
     light.radius = 0;
     return light;
 }
 
 shading::LightData point_of_area_light(const shading::LightData& light, glm::vec2 u) {
     if (light.radius <= 0) return light;
-    shading::LightData point = center_of_area_light(light);
+    shading::LightData point = light;
+    point.radius = 0;
     if (light.type == shading::light_type_directional) {
         const float half = std::sin(0.5f * light.radius);
         const float one_minus_cos = 2 * half * half;
@@ -39,7 +52,7 @@ shading::LightData point_of_area_light(const shading::LightData& light, glm::vec
         point.intensity = light.intensity * (2.0f / (2.0f - one_minus_cos));
         const float sine = std::sin(light.radius);
         if (light.opening == shading::opening_sun)
-            point.intensity *= shading::limb_darkening((local.x * local.x + local.y * local.y) / (sine * sine));
+            point.intensity *= point.axis.y > 0 ? 0 : shading::limb_darkening((local.x * local.x + local.y * local.y) / (sine * sine));
         return point;
     }
     if (light.type == shading::light_type_point) {

@@ -1,7 +1,9 @@
 #include "shading/cie_sky.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/units.h"
 #include "shading/quadrature.h"
@@ -49,17 +51,22 @@ void set_cie_sky(int type, float zenith_luminance, float ground_albedo, float su
 }
 
 glm::dvec3 horizontal_illuminance_rgb(const SkyData& sky) {
-    static const GaussLegendre<64> elevations;
-    // Azimuth goes round: even steps are exact for smooth skies, and the cusp about the sun is mild.
-    constexpr int azimuths = 512;
+    // The sines of elevation below and above the sun's, denser towards it, where the sky has its cusp. Both sides of the
+    // sun are alike.
+    static const GaussLegendre<16> rule;
+    const double sun = std::clamp(double(sky.sun_direction.y), 0.0, 1.0), azimuth_of_sun = std::atan2(sky.sun_direction.x, sky.sun_direction.z);
     glm::dvec3 sum(0);
-    for (std::size_t i = 0; i < elevations.x.size(); ++i)
-        for (int j = 0; j < azimuths; ++j) {
-            const double sine = elevations.x[i], cosine = std::sqrt(1 - sine * sine), azimuth = 2 * std::numbers::pi * j / azimuths;
-            const vec3 direction(cosine * std::sin(azimuth), sine, cosine * std::cos(azimuth));
-            sum += elevations.weight[i] * sine * glm::dvec3(sky_radiance(sky, direction, vec3(1.0f)));
+    for (const double extent : {-sun, 1 - sun})
+        for (std::size_t i = 0; i < rule.x.size(); ++i) {
+            const double sine = sun + extent * rule.x[i] * rule.x[i], cosine = std::sqrt(1 - sine * sine);
+            const double weight = 2 * rule.x[i] * std::abs(extent) * rule.weight[i] * sine;
+            for (std::size_t j = 0; j < rule.x.size(); ++j) {
+                const double azimuth = azimuth_of_sun + std::numbers::pi * rule.x[j];
+                const vec3 direction(cosine * std::sin(azimuth), sine, cosine * std::cos(azimuth));
+                sum += weight * rule.weight[j] * glm::dvec3(sky_radiance(sky, direction, vec3(1.0f)));
+            }
         }
-    return 2 * std::numbers::pi / azimuths * sum;
+    return 2 * std::numbers::pi * sum;
 }
 
 double horizontal_illuminance(const SkyData& sky) {

@@ -11,7 +11,7 @@ inline constexpr int cie_sky_types = 15;
 /// Angles in radians, azimuth clockwise from north, elevation from the horizon.
 void set_cie_sky(int type, float zenith_luminance, float ground_albedo, float sun_azimuth, float sun_elevation, SkyData& sky);
 
-/// Lux on the open ground under a sky of a formula, by quadrature to 10⁻⁵. The sun's own light is no part of it.
+/// Lux on the open ground under a sky of a formula, by quadrature to 2·10⁻⁵. The sun's own light is no part of it.
 [[nodiscard]] double horizontal_illuminance(const SkyData& sky);
 /// The same, linear Rec. 709.
 [[nodiscard]] glm::dvec3 horizontal_illuminance_rgb(const SkyData& sky);

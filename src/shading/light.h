@@ -102,6 +102,9 @@ SHADING_FN vec3 light_radiance(LightData light, vec3 direction) {
         if (light.opening != opening_sun) {
             return mean;
         }
+        if (direction.y < 0.0f) {  // behind the ground, as what is of the sky there (sky_radiance)
+            return vec3(0.0f);
+        }
         // The chord keeps the digits of small angles.
         vec3 chord = direction + light.axis;
         float chord2 = dot(chord, chord);

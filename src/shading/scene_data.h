@@ -103,7 +103,7 @@ SHADING_CONST uint opening_cylinder_y = 2u;
 SHADING_CONST uint opening_cylinder_z = 3u;
 SHADING_CONST uint opening_ellipsoid = 4u;
 SHADING_CONST uint opening_shape_bits = 0xffu;
-SHADING_CONST uint opening_sun = 0x200u;  // a directional light whose disc darkens towards its limb
+SHADING_CONST uint opening_sun = 0x200u;  // a directional light whose disc darkens towards its limb and sets behind the ground
 SHADING_CONST uint opening_mirrored = 0x100u;  // azimuth angles run the other way round
 
 struct LightData {
@@ -159,7 +159,8 @@ struct SkyData {
     float padding;
     vec3 ground;  // formulas: cd/m² below the horizon
     float padding2;
-    vec4 daylight[9];  // hosek, preetham: A, B, C, D, E, F, G, I, H of daylight_values, each of three values
+    // hosek, preetham: A, B, C, D, E, F, G, I, H of daylight_values, each of three values; then what X, Y, Z are multiplied by
+    vec4 daylight[10];
 };
 
 SHADING_END

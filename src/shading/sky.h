@@ -76,6 +76,7 @@ SHADING_FN vec3 daylight_radiance(SHADING_IN(SkyData) sky, vec3 direction) {
         float per_y = values.x / values.z;
         values = vec3(values.y * per_y, values.x, (1.0f - values.y - values.z) * per_y);
     }
+    values = values * vec3(sky.daylight[9]);
     return sky.luminance + into_gamut(rgb_from_xyz(values), values.y);
 }
 

@@ -4,6 +4,8 @@
 #include "convert/pack.h"
 #include "engine_parity.h"
 #include "shading/cie_sky.h"
+#include "shading/daylight.h"
+#include "shading/sky.h"
 
 namespace heliodon::tests {
 namespace {
@@ -49,12 +51,32 @@ TEST_F(DaylightModels, TheSunShinesOnAPlaneAsInThePathTracerAndGoesOutWithItsSky
         scene.set_sky(sky_at(SkyModel::hosek, elevation, true));
         const auto here = renderer->measure(scene, {});
         ASSERT_TRUE(here);
-        const double direct = units::luminance(glm::dvec3(convert::pack_sun(scene.sky())->intensity)) * std::sin(glm::radians(elevation));
+        const double direct = units::luminance(
+            shading::sunlight(shading::sky_model_hosek, scene.sky().turbidity, glm::radians(double(elevation)), scene.sky().sun_angular_diameter_rad)
+                .level());
         const double expected = shading::horizontal_illuminance(convert::pack_sky(scene)) + direct;
         EXPECT_NEAR((*here)[0].value, expected, 0.01 * expected) << elevation;
     }
     scene.set_sky(Sky{});
     EXPECT_EQ((*renderer->measure(scene, {}))[0].value, 0);
+}
+
+TEST_F(DaylightModels, ASettingSunShinesOnAWallAsInThePathTracer) {
+    Scene scene;
+    const Sky facing = sky_at(SkyModel::hosek, 0, true);
+    const glm::vec3 towards = shading::direction_from_azimuth(facing.sun_azimuth_rad, 0, facing.north_rad);
+    scene.add_sensor({"s", SensorType::illuminance, {0, 0, 0}, towards, {}, {}});
+    PathTracer tracer;
+    PathOptions path;
+    path.samples_per_pixel = 1 << 13;
+    path.max_depth = 1;
+    for (const float elevation : {0.15f, -0.1f}) {
+        scene.set_sky(sky_at(SkyModel::hosek, elevation, true));
+        ASSERT_TRUE(tracer.update(scene));
+        const auto here = renderer->measure(scene, {}), truth = tracer.measure(scene, path);
+        ASSERT_TRUE(here && truth);
+        EXPECT_NEAR((*here)[0].value, (*truth)[0].value, 0.01 * (*truth)[0].value) << elevation;
+    }
 }
 
 }  // namespace

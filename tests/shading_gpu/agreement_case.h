@@ -52,6 +52,7 @@ SHADING_FN SkyData agreement_sky(uint i) {
     s.daylight[6] = 0.2f * b;
     s.daylight[7] = a;
     s.daylight[8] = 0.3f + 0.5f * b;
+    s.daylight[9] = 0.5f + a;
     return s;
 }
 /// Of what a pipeline has only where shading_extended says so.

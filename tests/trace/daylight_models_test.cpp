@@ -4,6 +4,7 @@
 #include "convert/pack.h"
 #include "scene_building.h"
 #include "shading/cie_sky.h"
+#include "shading/daylight.h"
 #include "shading/light.h"
 #include "shading/sky.h"
 
@@ -20,6 +21,11 @@ Sky daylight(SkyModel model, float elevation_deg, bool disc) {
     return sky;
 }
 
+shading::Sunlight sunlight(const Sky& sky) {
+    return shading::sunlight(sky.model == SkyModel::hosek ? shading::sky_model_hosek : shading::sky_model_preetham, sky.turbidity,
+                             sky.sun_elevation_rad, sky.sun_angular_diameter_rad);
+}
+
 TEST(DaylightModels, OpenGroundReceivesTheIntegralOfTheDomeAndTheSunsDisc) {
     for (const SkyModel model : {SkyModel::hosek, SkyModel::preetham})
         for (const float elevation : {-9.0f, -1.0f, 0.0f, 2.0f, 10.0f, 30.0f, 60.0f, 89.0f})
@@ -31,7 +37,7 @@ TEST(DaylightModels, OpenGroundReceivesTheIntegralOfTheDomeAndTheSunsDisc) {
                 add_lux(scene, {0, 0, 0}, {0, -1, 0});
                 const auto sun = convert::pack_sun(sky);
                 EXPECT_EQ(sun.has_value(), disc && elevation > -0.265f);
-                const double direct = sun ? luminance(glm::dvec3(sun->intensity)) * std::max(std::sin(sky.sun_elevation_rad), 0.0f) : 0;
+                const double direct = sun ? luminance(sunlight(sky).level()) : 0;
                 const double expected = shading::horizontal_illuminance(convert::pack_sky(scene)) + direct;
                 const auto readings = measure(scene, 1 << 13, 1);
                 const std::string what = fmt::format("{} at {}°, disc {}", model == SkyModel::hosek ? "hosek" : "preetham", elevation, disc);
@@ -60,6 +66,30 @@ TEST(DaylightModels, TheSunsDiscIsSeenWithItsLuminance) {
     EXPECT_NEAR(readings[2].value, expected(beside, false), 2e-3 * readings[2].value);
     EXPECT_GT(readings[0].value, 1e9) << "cd/m²";
     EXPECT_LT(readings[1].value, 0.7 * readings[0].value) << "darker at the limb";
+}
+
+TEST(DaylightModels, OfASettingSunWhatIsAboveTheHorizonShinesAndIsSeen) {
+    for (const float elevation : {0.15f, 0.0f, -0.1f}) {
+        Scene scene;
+        Sky sky = daylight(SkyModel::hosek, elevation, true);
+        scene.set_sky(sky);
+        const auto towards = [&](float elevation_deg) {
+            return shading::direction_from_azimuth(sky.sun_azimuth_rad, glm::radians(elevation_deg), sky.north_rad);
+        };
+        add_lux(scene, {0, 0, 0}, towards(0));
+        add_sensor(scene, SensorType::luminance, {0, 0, 0}, towards(0.05f));
+        add_sensor(scene, SensorType::luminance, {0, 0, 0}, towards(-0.05f));
+        const auto with = measure(scene, 1 << 13, 1);
+        const double ground = luminance(glm::dvec3(convert::pack_sky(scene).ground));
+        sky.sun_disc = false;
+        scene.set_sky(sky);
+        const double normal = luminance(sunlight(sky).normal());
+        const SensorReading without = measure(scene, 1 << 13, 1)[0];
+        EXPECT_NEAR(with[0].value - without.value, normal, 0.01 * normal + with[0].half_width_95 + without.half_width_95) << elevation;
+        const double radius = 0.5 * sky.sun_angular_diameter_rad;
+        EXPECT_GT(with[1].value, 0.9 * normal / (std::numbers::pi * radius * radius)) << elevation;
+        EXPECT_NEAR(with[2].value, ground, 1e-3 * ground) << elevation << ": not over the ground";
+    }
 }
 
 TEST(DaylightModels, AWallBetweenTheSunAndAPointLeavesTheSky) {

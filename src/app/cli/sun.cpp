@@ -37,9 +37,9 @@ Illuminance illuminance(const SunOptions& options, const SunPosition& sun) {
     daylight.sun_elevation = sun.elevation_rad;
     shading::SkyData sky{};
     shading::set_daylight_sky(daylight, sky);
-    const double direct = units::luminance(shading::sun_illuminance(options.turbidity, sun.elevation_rad, defaults.sun_angular_diameter_rad));
+    const shading::Sunlight direct = shading::sunlight(daylight.model, options.turbidity, sun.elevation_rad, defaults.sun_angular_diameter_rad);
     const double from_sky = shading::horizontal_illuminance(sky);
-    return {direct, from_sky, from_sky + direct * std::max(std::sin(sun.elevation_rad), 0.0)};
+    return {units::luminance(direct.normal()), from_sky, from_sky + units::luminance(direct.level())};
 }
 
 const char* name(SunState state) {
