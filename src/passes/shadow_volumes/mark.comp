@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What a texel of the map shows is lit.
-#include "passes/shadow_volumes/casters.glsl"
+#include "passes/shadow_volumes/shadow_volumes_shared.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform usampler2D visibility;  // instance + 1, triangle
