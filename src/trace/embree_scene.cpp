@@ -1,115 +1,21 @@
 #include "trace/embree_scene.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <glm/gtc/type_ptr.hpp>
 #include <iterator>
 #include <utility>
-#include <glm/gtc/type_ptr.hpp>
-#include <limits>
+
+#include "trace/embree_shapes.h"
 
 namespace heliodon::trace {
 namespace {
 
 constexpr unsigned opaque_mask = 1;       // instances that block every ray
 constexpr unsigned translucent_mask = 2;  // instances whose material may let a shadow ray through
-
-struct Crossing {
-    double t;
-    glm::dvec3 normal;  // object space, outward
-    double u, v;
-};
-
-/// Calls `accept(Crossing)` for each crossing of the line with the shape, nearest first, until it returns true.
-template <class Accept>
-void cross_sphere(const Sphere& sphere, const glm::dvec3& origin, const glm::dvec3& direction, Accept&& accept) {
-    // Double precision: the float discriminant of a small sphere far away has no correct digit.
-    const glm::dvec3 offset = origin - glm::dvec3(sphere.center);
-    const double radius = sphere.radius;
-    const double a = glm::dot(direction, direction);
-    const double b = -glm::dot(offset, direction);
-    const glm::dvec3 closest = offset + (b / a) * direction;
-    const double discriminant = radius * radius - glm::dot(closest, closest);
-    if (!(discriminant >= 0)) return;
-    const double c = glm::dot(offset, offset) - radius * radius;
-    const double q = b + std::copysign(std::sqrt(a * discriminant), b);
-    double near = c / q, far = q / a;
-    if (q == 0) near = far = 0;
-    if (near > far) std::swap(near, far);
-    for (const double t : {near, far})
-        if (accept(Crossing{t, (offset + t * direction) / radius, 0, 0})) return;
-}
-
-template <class Accept>
-void cross_disk(const Disk& disk, const glm::dvec3& origin, const glm::dvec3& direction, Accept&& accept) {
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(disk.normal));
-    const double t = glm::dot(glm::dvec3(disk.center) - origin, normal) / glm::dot(direction, normal);
-    if (!std::isfinite(t)) return;
-    const glm::dvec3 tangent = disk_tangent(glm::vec3(normal)), bitangent = glm::cross(normal, tangent);
-    const glm::dvec3 point = (origin + t * direction - glm::dvec3(disk.center)) / static_cast<double>(disk.radius);
-    const double u = glm::dot(point, tangent), v = glm::dot(point, bitangent);
-    if (u * u + v * v <= 1) accept(Crossing{t, normal, u, v});
-}
-
-template <class Accept>
-void cross_shape(const Shape& shape, const glm::dvec3& origin, const glm::dvec3& direction, Accept&& accept) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) cross_sphere(*sphere, origin, direction, accept);
-    if (const auto* disk = std::get_if<Disk>(&shape)) cross_disk(*disk, origin, direction, accept);
-}
-
-void shape_bounds(const RTCBoundsFunctionArguments* arguments) {
-    const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
-    const Bounds exact = bounds(shape);
-    // A little outward, since the crossing itself is computed in double precision.
-    const glm::vec3 margin = 1e-6f * (glm::abs(exact.center()) + glm::vec3(exact.diagonal()));
-    const glm::vec3 lower = exact.min - margin, upper = exact.max + margin;
-    *arguments->bounds_o = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, 0};
-}
-
-/// Calls `accept(lane, crossing)` for the crossings of each ray of a packet, as cross_shape does.
-template <class Accept>
-void cross_packet(const Shape& shape, const int* valid, RTCRayN* rays, unsigned count, Accept&& accept) {
-    for (unsigned i = 0; i < count; ++i) {
-        if (!valid[i]) continue;
-        const glm::dvec3 origin{RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i), RTCRayN_org_z(rays, count, i)};
-        const glm::dvec3 direction{RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i),
-                                   RTCRayN_dir_z(rays, count, i)};
-        cross_shape(shape, origin, direction, [&](const Crossing& crossing) {
-            const auto t = static_cast<float>(crossing.t);
-            if (!(t > RTCRayN_tnear(rays, count, i) && t <= RTCRayN_tfar(rays, count, i))) return false;
-            accept(i, crossing);
-            return true;
-        });
-    }
-}
-
-void shape_intersect(const RTCIntersectFunctionNArguments* arguments) {
-    const unsigned n = arguments->N;
-    RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
-    RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, n);
-    const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
-    cross_packet(shape, arguments->valid, rays, n, [&](unsigned i, const Crossing& crossing) {
-        RTCRayN_tfar(rays, n, i) = static_cast<float>(crossing.t);
-        RTCHitN_u(hits, n, i) = static_cast<float>(crossing.u);
-        RTCHitN_v(hits, n, i) = static_cast<float>(crossing.v);
-        RTCHitN_Ng_x(hits, n, i) = static_cast<float>(crossing.normal.x);
-        RTCHitN_Ng_y(hits, n, i) = static_cast<float>(crossing.normal.y);
-        RTCHitN_Ng_z(hits, n, i) = static_cast<float>(crossing.normal.z);
-        RTCHitN_primID(hits, n, i) = arguments->primID;
-        RTCHitN_geomID(hits, n, i) = 0;
-        RTCHitN_instID(hits, n, i, 0) = arguments->context->instID[0];
-    });
-}
-
-void shape_occluded(const RTCOccludedFunctionNArguments* arguments) {
-    const unsigned n = arguments->N;
-    const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
-    cross_packet(shape, arguments->valid, arguments->ray, n, [&](unsigned i, const Crossing&) {
-        RTCRayN_tfar(arguments->ray, n, i) = -std::numeric_limits<float>::infinity();
-    });
-}
 
 RTCRay embree_ray(const shading::KernelRay& ray, unsigned mask) {
     RTCRay result{};
@@ -139,7 +45,9 @@ unsigned mask_of(const convert::FlatScene& flat, std::uint32_t index) {
 
 Result<void> EmbreeScene::open_device() {
     if (device_) return {};
-    device_.reset(rtcNewDevice(nullptr));
+    // Quadrilaterals are in refined trees only. Where a scene's quality asks for spatial splits Embree leaves out its
+    // robust mode, in which rays miss no edge; where the device asks for them it keeps it.
+    device_.reset(rtcNewDevice("quad_builder=sah_fast_spatial"));
     if (!device_)
         return fail("", fmt::format("cannot start Embree (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));
     return {};
@@ -154,27 +62,32 @@ Result<void> EmbreeScene::take_geometry(const Geometry* geometry, Level& level) 
     if (exact) {
         level.shape = std::make_unique<Shape>(*geometry->shape);
         level.geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
-        rtcSetGeometryUserPrimitiveCount(level.geometry.get(), 1);
-        rtcSetGeometryUserData(level.geometry.get(), level.shape.get());
-        rtcSetGeometryBoundsFunction(level.geometry.get(), shape_bounds, nullptr);
-        rtcSetGeometryIntersectFunction(level.geometry.get(), shape_intersect);
-        rtcSetGeometryOccludedFunction(level.geometry.get(), shape_occluded);
+        answer_exactly(level.geometry.get(), *level.shape);
     } else {
         const std::uint32_t highest = *std::max_element(mesh.indices.begin(), mesh.indices.end());
         if (highest >= mesh.positions.size())
             return fail(geometry->name,
                         fmt::format("expected vertex indices below {}, found {}", mesh.positions.size(), highest));
-        level.geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-        // Shared, never copied: Mesh's arrays are padded for Embree's 16-byte reads.
-        rtcSetSharedGeometryBuffer(level.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                   mesh.positions.data(), 0, sizeof(glm::vec3), mesh.positions.size());
-        rtcSetSharedGeometryBuffer(level.geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                   mesh.indices.data(), 0, 3 * sizeof(std::uint32_t), mesh.triangle_count());
+        take_mesh(mesh, level);
     }
     const RTCError error = rtcGetDeviceError(device_.get());
     if (error != RTC_ERROR_NONE)
         return fail(geometry->name, fmt::format("Embree cannot take it (error {})", static_cast<int>(error)));
     return {};
+}
+
+void EmbreeScene::take_mesh(const Mesh& mesh, Level& level) {
+    const bool pairs = !level.pairs.members.empty();
+    level.geometry.reset(rtcNewGeometry(device_.get(), pairs ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE));
+    // Shared, never copied: Mesh's arrays are padded for Embree's 16-byte reads.
+    rtcSetSharedGeometryBuffer(level.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               mesh.positions.data(), 0, sizeof(glm::vec3), mesh.positions.size());
+    if (pairs)
+        rtcSetSharedGeometryBuffer(level.geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                                   level.pairs.corners.data(), 0, sizeof(glm::uvec4), level.pairs.members.size());
+    else
+        rtcSetSharedGeometryBuffer(level.geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                   mesh.indices.data(), 0, 3 * sizeof(std::uint32_t), mesh.triangle_count());
 }
 
 void EmbreeScene::build_level(Level& level) {
@@ -203,7 +116,10 @@ bool EmbreeScene::place_instance(const convert::FlatScene& flat, std::uint32_t i
                                 glm::value_ptr(data.object_to_world));
     }
     const RTCGeometry placed = level.scene ? instance.get() : level.geometry.get();
-    instances_[index] = {.mask = mask_of(flat, index), .attached = true, .direct = !level.scene};
+    instances_[index] = {.mask = mask_of(flat, index),
+                         .attached = true,
+                         .direct = !level.scene,
+                         .pairs = level.pairs.members.empty() ? nullptr : level.pairs.members.data()};
     rtcSetGeometryMask(placed, instances_[index].mask);
     rtcCommitGeometry(placed);
     rtcAttachGeometryByID(top_.get(), placed, index);
@@ -248,6 +164,11 @@ Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const co
         wanted.resize(levels_.size());
         for (std::uint32_t i = 0; i < wanted.size(); ++i) wanted[i] = i;
     }
+    if (fine_ && changes.any()) {
+        fine_ = false;
+        for (std::uint32_t index = 0; index < levels_.size(); ++index)
+            if (!levels_[index].pairs.members.empty()) wanted.push_back(index);
+    }
     for (const std::uint32_t index : wanted) {
         rebuilt[index] = true;
         if (auto taken = take_geometry(flat.geometries()[index], levels_[index]); !taken) {
@@ -276,14 +197,11 @@ Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const co
         top_changed = true;
     }
     if (top_changed) {
-        // One tree over all triangles traces fastest and is smallest. From the first change on, a tree a part and one over
-        // these, opened where they overlap: what changed is built anew.
+        // One tree over all triangles traces fastest and is smallest. From the first change on, a tree a part and one
+        // over these, opened where they overlap: what changed is built anew.
         if (!everything) rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
-        rtcCommitScene(top_.get());
+        commit(flat);
         result.top_level_built = true;
-        any_translucent_ = std::any_of(instances_.begin(), instances_.end(), [](const Instance& instance) {
-            return instance.attached && instance.mask == translucent_mask;
-        });
     }
     const RTCError error = rtcGetDeviceError(device_.get());
     if (error != RTC_ERROR_NONE) {
@@ -291,6 +209,74 @@ Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const co
         return fail("", fmt::format("Embree cannot build the scene (error {})", static_cast<int>(error)));
     }
     return result;
+}
+
+void EmbreeScene::commit(const convert::FlatScene& flat) {
+    rtcCommitScene(top_.get());
+    translucent_.reset();
+    const auto primitives = [&](std::uint32_t index) {
+        const Geometry& geometry = *flat.geometries()[flat.instances()[index].geometry];
+        return instances_[index].direct ? geometry.mesh.triangle_count() : std::size_t{1};
+    };
+    std::size_t all = 0, translucent = 0;
+    for (std::uint32_t index = 0; index < instances_.size(); ++index) {
+        if (!instances_[index].attached) continue;
+        all += primitives(index);
+        if (instances_[index].mask == translucent_mask) translucent += primitives(index);
+    }
+    if (translucent == 0) return;
+    constexpr std::size_t share = 8;
+    if (translucent > all / share) {  // a second tree would gain little and take too much memory
+        rtcRetainScene(top_.get());
+        translucent_.reset(top_.get());
+        return;
+    }
+    translucent_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(translucent_.get(), RTC_SCENE_FLAG_ROBUST);
+    for (std::uint32_t index = 0; index < instances_.size(); ++index)
+        if (instances_[index].attached && instances_[index].mask == translucent_mask)
+            rtcAttachGeometryByID(translucent_.get(), rtcGetGeometry(top_.get(), index), index);
+    rtcCommitScene(translucent_.get());
+}
+
+Result<void> EmbreeScene::refine(const convert::FlatScene& flat, std::size_t most_triangles) {
+    constexpr std::size_t least_triangles = 4096;  // a smaller tree is in the cache, and no slower than a finer one
+    if (fine_) return {};
+    std::vector<std::uint32_t> meshes;
+    std::size_t triangles = 0;
+    for (std::uint32_t index = 0; index < instances_.size(); ++index) {
+        if (!instances_[index].direct) continue;
+        meshes.push_back(flat.instances()[index].geometry);
+        triangles += flat.geometries()[meshes.back()]->mesh.triangle_count();
+    }
+    if (triangles < least_triangles || triangles > most_triangles) return {};
+    std::vector<TrianglePairs> pairs(meshes.size());
+    tbb::parallel_for(std::size_t{0}, meshes.size(),
+                      [&](std::size_t i) { pairs[i] = pair_triangles(flat.geometries()[meshes[i]]->mesh); });
+    fine_ = true;
+    std::size_t quadrilaterals = 0;
+    for (const TrianglePairs& each : pairs) quadrilaterals += each.members.size();
+    if (quadrilaterals > triangles / 4 * 3) return {};  // so many alone would take more memory than triangles do
+    for (std::size_t i = 0; i < meshes.size(); ++i) levels_[meshes[i]].pairs = std::move(pairs[i]);
+    if (rebuild_top(flat, meshes)) return {};
+    // Another Embree may not know the builder.
+    for (const std::uint32_t mesh : meshes) levels_[mesh].pairs = {};
+    if (rebuild_top(flat, meshes)) return {};
+    top_.reset();
+    return fail("", "Embree cannot build the scene anew");
+}
+
+bool EmbreeScene::rebuild_top(const convert::FlatScene& flat, const std::vector<std::uint32_t>& meshes) {
+    translucent_.reset();
+    top_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST);
+    for (const std::uint32_t mesh : meshes) take_mesh(flat.geometries()[mesh]->mesh, levels_[mesh]);
+    for (std::uint32_t index = 0; index < instances_.size(); ++index) {
+        instances_[index] = {};
+        place_instance(flat, index);
+    }
+    commit(flat);
+    return rtcGetDeviceError(device_.get()) == RTC_ERROR_NONE;
 }
 
 shading::KernelHit EmbreeScene::trace(const shading::KernelRay& ray) const {
@@ -303,14 +289,14 @@ shading::KernelHit EmbreeScene::trace(const shading::KernelRay& ray) const {
             hit.kind = shading::kernel_hit_blocked;
             return hit;
         }
-        if (!any_translucent_) return hit;
+        if (!translucent_) return hit;
         mask = translucent_mask;
     }
     RTCRayHit query{};
     query.ray = embree_ray(ray, mask);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree_intersect(top_.get(), query);
+    embree_intersect(mask == translucent_mask ? translucent_.get() : top_.get(), query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
     hit.kind = shading::kernel_hit_surface;
     hit.t = query.ray.tfar;
@@ -318,6 +304,8 @@ shading::KernelHit EmbreeScene::trace(const shading::KernelRay& ray) const {
     hit.instance = direct ? query.hit.geomID : query.hit.instID[0];
     hit.primitive = query.hit.primID;
     hit.barycentric = {query.hit.u, query.hit.v};
+    if (const TrianglePairs::Members* pairs = instances_[hit.instance].pairs)
+        unpair(pairs[hit.primitive], hit.primitive, hit.barycentric.x, hit.barycentric.y);
     hit.object_normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
     return hit;
 }
@@ -348,11 +336,11 @@ void EmbreeScene::trace(const KernelRays8& rays, KernelHits8& hits) const {
             if (blocked) hits.kind[i] = shading::kernel_hit_blocked, open[i] = 0;
             any_open |= open[i] != 0;
         }
-        if (!any_translucent_ || !any_open) return;
+        if (!translucent_ || !any_open) return;
         mask = translucent_mask;
     }
     std::fill(std::begin(ray.mask), std::end(ray.mask), mask);
-    embree_intersect(top_.get(), open, query);
+    embree_intersect(mask == translucent_mask ? translucent_.get() : top_.get(), open, query);
     for (int i = 0; i < 8; ++i) {
         const bool met = open[i] && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
         if (met) hits.kind[i] = shading::kernel_hit_surface;
@@ -361,6 +349,11 @@ void EmbreeScene::trace(const KernelRays8& rays, KernelHits8& hits) const {
     }
     copy(hits.t, ray.tfar), copy(hits.primitive, query.hit.primID);
     copy(hits.barycentric[0], query.hit.u), copy(hits.barycentric[1], query.hit.v);
+    for (int i = 0; fine_ && i < 8; ++i) {
+        if (hits.kind[i] != shading::kernel_hit_surface) continue;
+        if (const TrianglePairs::Members* pairs = instances_[hits.instance[i]].pairs)
+            unpair(pairs[hits.primitive[i]], hits.primitive[i], hits.barycentric[0][i], hits.barycentric[1][i]);
+    }
     copy(hits.object_normal[0], query.hit.Ng_x), copy(hits.object_normal[1], query.hit.Ng_y);
     copy(hits.object_normal[2], query.hit.Ng_z);
 }

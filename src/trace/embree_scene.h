@@ -10,6 +10,7 @@
 #include "shading/kernel_state.h"
 #include "trace/embree_api.h"
 #include "trace/path_tracer.h"
+#include "trace/triangle_pairs.h"
 
 namespace heliodon::trace {
 
@@ -45,6 +46,11 @@ public:
     /// error the next update starts afresh.
     [[nodiscard]] Result<TraceUpdate> update(const convert::FlatScene& flat, const convert::FlatChanges& changes);
 
+    /// For pictures of many rays: builds the tree anew, over pairs of triangles and with spatial splits, which takes a
+    /// few times as long; until the next change. Only where that can gain anything, and of no more than so many
+    /// triangles.
+    [[nodiscard]] Result<void> refine(const convert::FlatScene& flat, std::size_t most_triangles);
+
     /// The nearest hit of a scatter ray. Of a shadow ray: blocked, or the nearest surface that might let
     /// light through, or nothing.
     [[nodiscard]] shading::KernelHit trace(const shading::KernelRay& ray) const;
@@ -54,29 +60,38 @@ public:
 private:
     struct Level {
         std::unique_ptr<Shape> shape;  ///< what the user-geometry callbacks read
+        TrianglePairs pairs;           ///< of what stands in a refined tree
         GeometryReference geometry;
         SceneReference scene;  ///< what instances show; none while the geometry stands in the top level
     };
     struct Instance {
         unsigned mask = 0;
         bool attached = false;
-        bool direct = false;  ///< its geometry itself is attached
+        bool direct = false;                            ///< its geometry itself is attached
+        const TrianglePairs::Members* pairs = nullptr;  ///< of its geometry, if that is refined
     };
 
     Result<void> open_device();
     Result<void> take_geometry(const Geometry* geometry, Level& level);
+    void take_mesh(const Mesh& mesh, Level& level);
     void build_level(Level& level);
     /// Gives shapes, and meshes that have moved or are used again, scenes of their own, which they keep; how many.
     int build_instanced_levels(const convert::FlatScene& flat);
     /// False where nothing changed: a hole stays a hole.
     bool place_instance(const convert::FlatScene& flat, std::uint32_t index);
+    /// All instances in a new tree, with those `meshes` taken anew; false if Embree cannot.
+    bool rebuild_top(const convert::FlatScene& flat, const std::vector<std::uint32_t>& meshes);
+    /// Builds the top level and the tree of what is translucent.
+    void commit(const convert::FlatScene& flat);
 
     // In this order: the device goes last.
     DeviceReference device_;
     std::vector<Level> levels_;
     std::vector<Instance> instances_;
     SceneReference top_;
-    bool any_translucent_ = false;
+    SceneReference
+        translucent_;    ///< what shadow rays may pass, again: a tree of its own if it is little; none without any
+    bool fine_ = false;  ///< refined
 };
 
 }  // namespace heliodon::trace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <glm/gtc/matrix_access.hpp>
@@ -148,6 +149,15 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
     if (!state_->ready) return fail("", "expected the tracer to have followed the scene before it renders");
     trace::CpuKernel kernel = state_->kernel(options);
     set_camera(camera, options, kernel.frame);
+    const auto start = std::chrono::steady_clock::now();
+    // A finer tree costs the time of one or two samples a triangle. Whether it pays is asked of the picture's size, not of its
+    // samples: going on with a picture must meet the same surfaces.
+    constexpr std::size_t triangles_a_pixel = 16;
+    const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+    Result<void> refined;
+    trace::run_on_threads(options.threads, [&] { refined = state_->embree.refine(state_->flat, triangles_a_pixel * pixels); });
+    if (!refined) return tl::unexpected(refined.error());
+    const double refining = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     // Whoever tells the scatter of pixels from their neighbours' needs them independent.
     constexpr std::uint32_t tile_bits = 4;
     if (trace::wants_variance(options))
@@ -168,7 +178,7 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
     auto picture = trace::render_picture(kernel, state_->embree, options, floor / units::exposure_scale(camera.ev100()),
                                          counted, progress, samples);
     if (!picture) return picture;
-    counted.seconds += branching.seconds;
+    counted.seconds += branching.seconds + refining;
     counted.rays += branching.rays;
     picture->ev100 = camera.ev100();
     picture->has_ev100 = true;
