@@ -86,6 +86,7 @@ Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
     const bool cone_shadows = scene.render_settings().gi == "vct" && scene.render_settings().vct.shadows;
     if (cone_shadows != cone_shadows_) planned_lights_ = ~0ull;
     cone_shadows_ = cone_shadows;
+    if (scene.render_settings().shadow_cascades.count != settings_.shadow_cascades.count) planned_lights_ = ~0ull;
     settings_ = scene.render_settings();
     const int stated = settings_.shadow_map_size;
     shadow_maps_fit_picture_ = stated == 0;
@@ -299,7 +300,7 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
     frame.cone_traced = sample.cone_traced ? 1 : 0;
     // Live, a picture in motion has the cones in the middle of their cells; all other samples fill the cells.
     if (sample.index > 0 || sample.count > 1) frame.cone_shift = sample_position(sample.index, sample.count, sample.seed + 1);
-    frame.shadow_filter = sample.jitter_shadows ? shading::shadow_filter_nearest : shading::shadow_filter_percentage_closer;
+    frame.shadow_filter = sample.jitter_shadows ? shading::shadow_filter_nearest : shading::shadow_filter_contact_hardening;
     frame.fragment_capacity = wanted_.fragment_capacity;
     frame.random_seed = sample.index * 9781u + sample.seed;
     const shading::ViewData view{frame.world_to_clip};

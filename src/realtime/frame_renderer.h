@@ -104,6 +104,8 @@ public:
     [[nodiscard]] gpu::Pipelines& pipelines() { return pipelines_; }
     /// Indirect draws that the last render() recorded.
     [[nodiscard]] std::uint32_t draw_calls() const { return draw_calls_; }
+    /// Shadow maps that have been drawn so far: one that shows the scene as it is is not drawn again.
+    [[nodiscard]] std::uint64_t shadow_maps_drawn() const { return shadow_maps_drawn_; }
     /// Whether any light has an extent: its shadow maps then belong to one point of it at a time.
     [[nodiscard]] bool has_area_lights() const { return has_area_lights_; }
     [[nodiscard]] std::size_t light_batches() const { return plan_.batches.size(); }
@@ -156,6 +158,10 @@ private:
     [[nodiscard]] std::span<const ShadowPlan::View> views_due(const FrameSample& sample, const ShadowBatch& batch,
                                                               const ShadowKey& wanted);
     [[nodiscard]] Result<void> place_area_lights(const FrameSample& sample, std::span<const ShadowPlan::View> views);
+    [[nodiscard]] std::vector<shading::ShadowViewData> shadow_views_at(std::span<const ShadowPlan::View> views,
+                                                                       const FrameSample& sample) const;
+    [[nodiscard]] Result<void> draw_shadow_maps(gpu::Commands& commands, const FrameSample& sample,
+                                                std::span<const shading::ShadowViewData> views, gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> record_light_grid(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
                                                  gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> prepare(const Camera& camera, const FrameSample& sample);
@@ -222,6 +228,9 @@ private:
     std::uint64_t planned_lights_ = ~0ull, prefiltered_sky_ = ~0ull;
     std::uint32_t planned_instances_ = 0;  // as a capacity
     ShadowKey resident_shadows_;
+    std::vector<shading::ShadowViewData> resident_views_;
+    ShadowCascades cascades_, drawn_cascades_;  // as the camera stands now, and as it stood when maps were last drawn
+    std::uint64_t shadow_maps_drawn_ = 0;
     std::pair<std::uint64_t, std::size_t> light_grid_key_{~0ull, 0};  // scene revision, batch
     bool forced_shadows_ = false;  // in this frame, already
     int shadow_map_size_ = 2048, planned_size_ = 0;

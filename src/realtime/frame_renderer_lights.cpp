@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "passes/light_grid/light_grid.h"
 #include "realtime/area_light.h"
@@ -37,6 +38,7 @@ ShadowBudget shadow_budget(const gpu::Device& device, int size, std::uint32_t in
 }  // namespace
 
 Result<void> FrameRenderer::plan_lights() {
+    if (cascades_.count != settings_.shadow_cascades.count) cascades_ = {.count = settings_.shadow_cascades.count};
     const auto flat_lights = gpu_scene_.flat().lights();
     lights_.assign(flat_lights.begin(), flat_lights.end());
     has_cone_shadows_ = false;
@@ -76,7 +78,7 @@ Result<void> FrameRenderer::upload_visible_lights() {
 
 ShadowPlan FrameRenderer::plan_shadow_maps() const {
     return plan_shadows(lights_, gpu_scene_.bounds(), shadow_budget(device_, shadow_map_size_, gpu_scene_.instance_count()),
-                        shadow_detail_ ? &*shadow_detail_ : nullptr);
+                        shadow_detail_ ? &*shadow_detail_ : nullptr, cascades_);
 }
 
 void FrameRenderer::use_shadow_plan(ShadowPlan plan) {
@@ -87,16 +89,21 @@ void FrameRenderer::use_shadow_plan(ShadowPlan plan) {
 
 void FrameRenderer::fit_shadow_maps(const Camera& camera, const FrameSample& sample) {
     std::optional<ShadowDetail> detail;
+    ShadowCascades cascades{.count = settings_.shadow_cascades.count};
     // Maps that take turns are small, and stay where they are.
-    if (shadow_maps_fit_picture_ && !sample.measures && plan_.batches.size() == 1 && !refreshes_in_turns()) {
+    if (!sample.measures && !refreshes_in_turns()) {
         const Bounds& bounds = gpu_scene_.bounds();
         detail = shadow_detail(camera_frame(camera, bounds, wanted_.width, wanted_.height, glm::vec2(0)), bounds);
+        cascades = shadow_cascades(settings_.shadow_cascades, *detail);
+        cascades.whole_scene = sample.cone_traced;
         const glm::vec3 extent = bounds.extent();
         const float longest = std::max({extent.x, extent.y, extent.z});
         if (sample.cone_traced) detail->voxel_m = std::ldexp(longest / static_cast<float>(settings_.voxels), 1 - settings_.cascades);
+        if (!shadow_maps_fit_picture_ || plan_.batches.size() > 1) detail.reset();
     }
-    if (detail == shadow_detail_) return;
+    if (detail == shadow_detail_ && cascades == cascades_) return;
     shadow_detail_ = detail;
+    cascades_ = std::move(cascades);
     if (ShadowPlan plan = plan_shadow_maps(); !same_places(plan, plan_)) use_shadow_plan(std::move(plan));
 }
 
@@ -138,17 +145,51 @@ Result<void> FrameRenderer::place_area_lights(const FrameSample& sample, std::sp
     return {};
 }
 
+std::vector<shading::ShadowViewData> FrameRenderer::shadow_views_at(std::span<const ShadowPlan::View> views, const FrameSample& sample) const {
+    glm::vec2 jitter(0);
+    if (sample.jitter_shadows) jitter = sample_position(sample.shadow_index, 0, sample.seed) - 0.5f;
+    auto result = shadow_views(views, placed_lights_, gpu_scene_.bounds(), jitter, cascades_);
+    if (sample.jitter_shadows) return result;  // each is of one point of the light
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (result[i].kind == shading::shadow_kind_orthographic) result[i].disc_tangent = std::tan(lights_[views[i].light].radius);
+    return result;
+}
+
 Result<void> FrameRenderer::record_shadows(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
                                            gpu::Timestamps* timestamps) {
     const ShadowKey wanted{gpu_scene_.revision(), batch, sample.shadow_index, sample.jitter_shadows};
-    if (wanted == resident_shadows_ && stale_views_ == 0 && (!sample.force_shadows || forced_shadows_)) return {};
-    const auto due = views_due(sample, plan_.batches[batch], wanted);
+    const bool resident = wanted == resident_shadows_ && stale_views_ == 0 && (!sample.force_shadows || forced_shadows_);
+    const std::span all(plan_.views.data() + plan_.batches[batch].first_view, plan_.batches[batch].view_count);
+    if (resident && (cascades_ == drawn_cascades_ || refreshes_in_turns())) return {};
+    const auto due = resident ? all : views_due(sample, plan_.batches[batch], wanted);
     if (due.empty() && refreshes_in_turns()) return {};
-    glm::vec2 jitter(0);
-    if (sample.jitter_shadows) jitter = sample_position(sample.shadow_index, 0, sample.seed) - 0.5f;
-    if (auto done = place_area_lights(sample, due); !done) return done;
-    if (auto done = record_light_grid(commands, sample, batch, timestamps); !done) return done;
-    const auto views = shadow_views(due, placed_lights_, gpu_scene_.bounds(), jitter);
+    if (!resident) {
+        if (auto done = place_area_lights(sample, due); !done) return done;
+        if (auto done = record_light_grid(commands, sample, batch, timestamps); !done) return done;
+    }
+    const auto first = static_cast<std::size_t>(due.data() - all.data());
+    const auto views = shadow_views_at(due, sample);
+    resident_views_.resize(all.size());
+    std::vector<shading::ShadowViewData> drawn;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        // Cascades that the camera has moved are drawn anew, what else is resident stays.
+        const bool stays = resident && std::memcmp(&views[i], &resident_views_[first + i], sizeof(views[i])) == 0;
+        resident_views_[first + i] = views[i];
+        if (!stays && views[i].kind != shading::shadow_kind_none) drawn.push_back(views[i]);
+    }
+    drawn_cascades_ = cascades_;
+    if (resident && drawn.empty()) return {};
+    if (auto done = draw_shadow_maps(commands, sample, drawn, timestamps); !done) return done;
+    if (!views.empty())
+        if (auto done = device_.upload<shading::ShadowViewData>(shadow_views_, views, first * sizeof(shading::ShadowViewData)); !done)
+            return done;
+    resident_shadows_ = wanted;
+    forced_shadows_ = forced_shadows_ || sample.force_shadows || (refreshes_in_turns() && sample.count == 0);
+    return {};
+}
+
+Result<void> FrameRenderer::draw_shadow_maps(gpu::Commands& commands, const FrameSample& sample,
+                                             std::span<const shading::ShadowViewData> views, gpu::Timestamps* timestamps) {
     std::vector<shading::ViewData> cull_views;
     shadow_inputs_.draws.clear();
     for (const shading::ShadowViewData& view : views) {
@@ -159,17 +200,11 @@ Result<void> FrameRenderer::record_shadows(gpu::Commands& commands, const FrameS
     shadow_inputs_.view_count = static_cast<std::uint32_t>(views.size());
     shadow_inputs_.random_seed = sample.shadow_index + sample.seed;
     if (auto done = place_raster_shadows(views); !done) return done;
-    if (!views.empty()) {
-        const std::size_t first = static_cast<std::size_t>(due.data() - plan_.views.data()) - plan_.batches[batch].first_view;
-        if (auto done = device_.upload<shading::ShadowViewData>(shadow_views_, views, first * sizeof(shading::ShadowViewData)); !done)
-            return done;
+    if (!views.empty())
         if (auto done = device_.upload<shading::ViewData>(shadow_cull_views_, cull_views); !done) return done;
-    }
+    shadow_maps_drawn_ += views.size();
     // Also without views: the graph brings the image into the layout that shading expects.
-    if (auto done = shadow_executor_->execute(commands, timestamps); !done) return done;
-    resident_shadows_ = wanted;
-    forced_shadows_ = sample.force_shadows || (refreshes_in_turns() && sample.count == 0);
-    return {};
+    return shadow_executor_->execute(commands, timestamps);
 }
 
 Result<void> FrameRenderer::record_light_grid(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/units.h"
@@ -19,8 +18,8 @@ constexpr std::uint32_t cube_flag = 0x80000000u;
 // A spot's single perspective view loses resolution in its middle as the cone opens; beyond this
 // half-angle a cube's faces have more.
 constexpr float widest_single_view_tan = 1.7320508f;  // 60°
-// Texels around the edge so that taps beside a lookup stay inside the view.
-constexpr float guard_texels = 2.0f;
+constexpr auto guard_texels = static_cast<float>(shadow_guard_texels);
+constexpr std::uint32_t no_map = ~0u;  // instead of a number of halvings
 
 bool shines(const LightData& light) {
     return light.type != shading::light_type_none && (light.intensity.x > 0 || light.intensity.y > 0 || light.intensity.z > 0);
@@ -37,8 +36,9 @@ bool needs_cube(const LightData& light) {
 }
 
 /// Lights with shadows by cones need no map.
-std::uint32_t view_count(const LightData& light) {
+std::uint32_t view_count(const LightData& light, int cascades) {
     if (light.cone_radius > 0) return 0;
+    if (light.type == shading::light_type_directional) return static_cast<std::uint32_t>(cascades) + 1;
     return needs_cube(light) ? 6 : 1;
 }
 
@@ -77,31 +77,50 @@ ShadowViewData perspective_view(const Axes& axes, glm::vec3 origin, float tangen
     return view;
 }
 
-ShadowViewData orthographic_view(const Axes& axes, const Bounds& scene, float guard, glm::vec2 jitter_ndc) {
-    glm::vec3 low(std::numeric_limits<float>::infinity()), high(-std::numeric_limits<float>::infinity());
+/// The scene in a light's axes, with a margin of a thousandth, which keeps flat scenes from a range of zero and what lies on
+/// the box inside it.
+Bounds seen_along(const Axes& axes, const Bounds& scene) {
+    Bounds seen;
     const Bounds bounds = scene.empty() ? Bounds{glm::vec3(-1), glm::vec3(1)} : scene;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
                           corner & 4 ? bounds.max.z : bounds.min.z);
-        const glm::vec3 local(glm::dot(p, axes.right), glm::dot(p, axes.up), glm::dot(p, axes.forward));
-        low = glm::min(low, local);
-        high = glm::max(high, local);
+        seen.include({glm::dot(p, axes.right), glm::dot(p, axes.up), glm::dot(p, axes.forward)});
     }
-    // A margin of a thousandth keeps flat scenes from a range of zero and what lies on the box inside it.
-    const float margin = 1e-3f * std::max(glm::length(high - low), 1e-6f);
-    const glm::vec3 center = 0.5f * (low + high);
-    const glm::vec2 half = (0.5f * glm::vec2(high - low) + margin) * guard;
+    const float margin = 1e-3f * std::max(seen.diagonal(), 1e-6f);
+    return {seen.min - margin, seen.max + margin};
+}
+
+/// Of a rectangle across the light, as deep as the scene.
+ShadowViewData orthographic_view(const Axes& axes, const Bounds& seen, glm::vec2 center, glm::vec2 half, glm::vec2 jitter_ndc) {
     ShadowViewData view{};
     view.kind = shading::shadow_kind_orthographic;
-    view.origin = axes.right * center.x + axes.up * center.y + axes.forward * (low.z - margin);
+    view.origin = axes.right * center.x + axes.up * center.y + axes.forward * seen.min.z;
     view.axis_u = axes.right * half.x;
     view.axis_v = axes.up * half.y;
     view.forward = axes.forward;
-    view.range_m = high.z - low.z + 2.0f * margin;
+    view.range_m = seen.extent().z;
     const glm::vec4 one(0, 0, 0, 1);
     view.world_to_clip = from_rows(offset_row(axes.right / half.x, view.origin) + jitter_ndc.x * one,
                                    offset_row(axes.up / half.y, view.origin) + jitter_ndc.y * one,
                                    one - offset_row(axes.forward / view.range_m, view.origin), one);
+    return view;
+}
+
+ShadowViewData directional_view(const ShadowPlan::View& source, const LightData& light, const Bounds& scene, glm::vec2 jitter_ndc,
+                                const ShadowCascades& cascades) {
+    const Axes axes = axes_along(light.axis);
+    const Bounds seen = seen_along(axes, scene);
+    if (source.whole_scene) {
+        const float guard = 1.0f + 2.0f * guard_texels / static_cast<float>(source.place.size);
+        return orthographic_view(axes, seen, seen.center(), 0.5f * glm::vec2(seen.extent()) * guard, jitter_ndc);
+    }
+    const ShadowSlice& slice = cascades.slices[source.face];
+    const double half = cascade_half_width(slice, cascades.blend, source.place.size);
+    const glm::dvec2 across(glm::dot(glm::dvec3(axes.right), glm::dvec3(slice.center)), glm::dot(glm::dvec3(axes.up), glm::dvec3(slice.center)));
+    ShadowViewData view = orthographic_view(axes, seen, snapped_center(across, half, source.place.size), glm::vec2(half), jitter_ndc);
+    view.wider = 1;
+    view.border = cascades.blend;
     return view;
 }
 
@@ -116,13 +135,18 @@ ShadowFrustum perspective_frustum(const Axes& axes, glm::vec3 origin, float tang
     return frustum;
 }
 
+/// Of a directional light's map of the whole scene.
+float whole_half_width(const LightData& light, const Bounds& scene) {
+    const glm::vec3 extent = seen_along(axes_along(light.axis), scene).extent();
+    return 0.5f * std::max(extent.x, extent.y);
+}
+
 ShadowFrustum frustum_of(const ShadowPlan::View& view, const LightData& light, const Bounds& scene) {
     if (light.type != shading::light_type_directional)
         return view.cube ? perspective_frustum(face_axes(view.face), light.position, 1)
                          : perspective_frustum(axes_along(light.axis), light.position, spot_tan(light));
-    const ShadowViewData whole = orthographic_view(axes_along(light.axis), scene, 1, glm::vec2(0));  // holds the scene
-    ShadowFrustum frustum;
-    frustum.half_width.w = std::max(glm::length(whole.axis_u), glm::length(whole.axis_v));
+    ShadowFrustum frustum;  // holds the scene
+    frustum.half_width.w = whole_half_width(light, scene);
     return frustum;
 }
 
@@ -148,7 +172,7 @@ public:
 
     [[nodiscard]] std::uint32_t most_halvings() const { return most_halvings_; }
     /// Squares of the smallest map in one halved so often.
-    [[nodiscard]] std::uint64_t cells(std::uint32_t halvings) const { return 1ull << 2 * (most_halvings_ - halvings); }
+    [[nodiscard]] std::uint64_t cells(std::uint32_t halvings) const { return halvings == no_map ? 0 : 1ull << 2 * (most_halvings_ - halvings); }
     [[nodiscard]] std::uint64_t capacity() const { return capacity_; }
     /// How often a map may be halved that is to keep so many texels an edge.
     [[nodiscard]] std::uint32_t halvings_for(double texels) const {
@@ -210,9 +234,36 @@ std::uint32_t even_bits(std::uint64_t code) {
     return result;
 }
 
+/// How many slices are narrower than the whole scene.
+std::size_t slices_worth_a_map(const LightData& light, const Bounds& scene, const ShadowBudget& budget, const ShadowCascades& cascades) {
+    const float whole = whole_half_width(light, scene);
+    const auto useless = std::find_if(cascades.slices.begin(), cascades.slices.end(), [&](const ShadowSlice& slice) {
+        return cascade_half_width(slice, cascades.blend, budget.layer_size) >= whole;
+    });
+    return static_cast<std::size_t>(useless - cascades.slices.begin());
+}
+
+/// How often a directional light's map may be halved at least; `slices` have one.
+std::uint32_t least_halvings(const ShadowPlan::View& view, const LightData& light, const Bounds& scene, const MapSizes& sizes,
+                             const ShadowBudget& budget, const ShadowDetail* detail, const ShadowCascades& cascades, std::size_t slices) {
+    if (!view.whole_scene) {
+        if (view.face >= slices) return no_map;
+        if (!detail) return 0;
+        const ShadowSlice& slice = cascades.slices[view.face];
+        const double pixel = std::min(glm::length(detail->ray_dx), glm::length(detail->ray_dy)) * slice.near_m;
+        return sizes.halvings_for(2 * cascade_half_width(slice, cascades.blend, budget.layer_size) / pixel);
+    }
+    const bool seen = slices < cascades.slices.size() || !cascades.reaches_all || slices == 0;
+    if (!seen && !cascades.whole_scene) return no_map;
+    if (!detail) return 0;
+    ShadowDetail beyond = *detail;  // the last slice
+    if (slices > 0) beyond.near_m = std::max(beyond.near_m, cascades.slices[slices - 1].far_m);
+    return sizes.halvings_for(texels_wanted(frustum_of(view, light, scene), beyond));
+}
+
 /// Sizes and places of the maps of one batch.
 void place_maps(ShadowPlan& plan, ShadowBatch& batch, std::span<const LightData> lights, const Bounds& scene,
-                const ShadowBudget& budget, const ShadowDetail* detail) {
+                const ShadowBudget& budget, const ShadowDetail* detail, const ShadowCascades& cascades) {
     const MapSizes sizes(budget);
     std::vector<MapSizes::Light> chosen;
     std::vector<std::uint32_t> halvings, order;
@@ -220,9 +271,13 @@ void place_maps(ShadowPlan& plan, ShadowBatch& batch, std::span<const LightData>
     for (std::uint32_t i = 0; i < batch.light_count; ++i) {
         const LightData& light = lights[plan.active_lights[batch.first_light + i]];
         chosen.push_back({typical_illuminance(light, scene)});
-        for (std::uint32_t n = view_count(light); n > 0; --n, ++view)
+        const bool directional = light.type == shading::light_type_directional;
+        const std::size_t slices = directional ? slices_worth_a_map(light, scene, budget, cascades) : 0;
+        for (std::uint32_t n = view_count(light, cascades.count); n > 0; --n, ++view)
             chosen.back().least.push_back(
-                detail ? sizes.halvings_for(texels_wanted(frustum_of(plan.views[view], light, scene), *detail)) : 0);
+                directional ? least_halvings(plan.views[view], light, scene, sizes, budget, detail, cascades, slices)
+                : detail    ? sizes.halvings_for(texels_wanted(frustum_of(plan.views[view], light, scene), *detail))
+                            : 0);
     }
     sizes.choose(chosen);
     for (const MapSizes::Light& light : chosen)
@@ -232,6 +287,7 @@ void place_maps(ShadowPlan& plan, ShadowBatch& batch, std::span<const LightData>
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return halvings[a] < halvings[b]; });
     std::uint64_t next = 0;
     for (const std::uint32_t view : order) {
+        if (halvings[view] == no_map) continue;
         const std::uint64_t cell = next % sizes.cells(0), edge = budget.layer_size;
         plan.views[batch.first_view + view].place = {static_cast<std::uint32_t>(next / sizes.cells(0)),
                                                      static_cast<std::uint32_t>(even_bits(cell) * edge >> sizes.most_halvings()),
@@ -244,7 +300,8 @@ void place_maps(ShadowPlan& plan, ShadowBatch& batch, std::span<const LightData>
 
 }  // namespace
 
-ShadowPlan plan_shadows(std::span<const LightData> lights, const Bounds& scene, const ShadowBudget& budget, const ShadowDetail* detail) {
+ShadowPlan plan_shadows(std::span<const LightData> lights, const Bounds& scene, const ShadowBudget& budget,
+                        const ShadowDetail* detail, const ShadowCascades& cascades) {
     ShadowPlan plan;
     plan.shadow_of_light.assign(lights.size(), shading::no_texture);
     const std::uint64_t most_views = std::min<std::uint64_t>(budget.views, MapSizes(budget).capacity());
@@ -252,26 +309,27 @@ ShadowPlan plan_shadows(std::span<const LightData> lights, const Bounds& scene, 
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
         if (!shines(lights[i])) continue;
         const bool cube = needs_cube(lights[i]);
-        const std::uint32_t count = view_count(lights[i]);
+        const std::uint32_t count = view_count(lights[i], cascades.count);
         if (batch.view_count + count > most_views) {
             plan.batches.push_back(batch);
             batch = {static_cast<std::uint32_t>(plan.active_lights.size()), 0, static_cast<std::uint32_t>(plan.views.size()), 0};
         }
         if (count > 0) plan.shadow_of_light[i] = batch.view_count | (cube ? cube_flag : 0);
         plan.active_lights.push_back(i);
-        for (std::uint32_t face = 0; face < count; ++face) plan.views.push_back({i, face, cube, {}});
+        const bool directional = lights[i].type == shading::light_type_directional;
+        for (std::uint32_t face = 0; face < count; ++face) plan.views.push_back({i, face, cube, directional && face + 1 == count, {}});
         ++batch.light_count;
         batch.view_count += count;
     }
     plan.batches.push_back(batch);
-    for (ShadowBatch& planned : plan.batches) place_maps(plan, planned, lights, scene, budget, detail);
+    for (ShadowBatch& planned : plan.batches) place_maps(plan, planned, lights, scene, budget, detail, cascades);
     return plan;
 }
 
 bool same_views(const ShadowPlan& a, const ShadowPlan& b) {
     return a.active_lights == b.active_lights && a.shadow_of_light == b.shadow_of_light && a.batches.size() == b.batches.size() &&
            std::equal(a.views.begin(), a.views.end(), b.views.begin(), b.views.end(), [](const auto& x, const auto& y) {
-               return x.light == y.light && x.face == y.face && x.cube == y.cube;
+               return x.light == y.light && x.face == y.face && x.cube == y.cube && x.whole_scene == y.whole_scene;
            });
 }
 
@@ -281,18 +339,25 @@ bool same_places(const ShadowPlan& a, const ShadowPlan& b) {
 }
 
 std::vector<ShadowViewData> shadow_views(std::span<const ShadowPlan::View> sources, std::span<const LightData> lights,
-                                         const Bounds& scene, glm::vec2 jitter_texels) {
+                                         const Bounds& scene, glm::vec2 jitter_texels, const ShadowCascades& cascades) {
     std::vector<ShadowViewData> views;
     // Depth is near/w in 32-bit floats, as precise at any near distance; nearer than this, nothing blocks.
     const float near_m = std::max(scene.diagonal(), 1e-6f) * (1.0f / 65536.0f);
     for (const ShadowPlan::View& source : sources) {
         const LightData& light = lights[source.light];
+        if (source.place.size == 0) {
+            ShadowViewData none{};
+            none.kind = shading::shadow_kind_none;
+            none.wider = source.whole_scene ? 0 : 1;
+            views.push_back(none);
+            continue;
+        }
         const auto map_size = static_cast<float>(source.place.size);
         const glm::vec2 jitter_ndc = jitter_texels * (2.0f / map_size);
         const float guard = 1.0f + 2.0f * guard_texels / map_size;
         ShadowViewData view;
         if (light.type == shading::light_type_directional)
-            view = orthographic_view(axes_along(light.axis), scene, guard, jitter_ndc);
+            view = directional_view(source, light, scene, jitter_ndc, cascades);
         else if (source.cube)
             view = perspective_view(face_axes(source.face), light.position, guard, near_m, jitter_ndc);
         else

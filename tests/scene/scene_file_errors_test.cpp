@@ -295,7 +295,7 @@ const std::vector<BadFile>& bad_files() {
         {"NineShadowCascades", R"("render": {"shadow_cascades": {"count": 9}})",
          "$.render.shadow_cascades.count: expected a whole number from 1 to 8, found 9"},
         {"ShadowCascadesThatOnlyBlend", R"("render": {"shadow_cascades": {"blend": 0.6}})",
-         "$.render.shadow_cascades.blend: expected a number from 0 to 0.5, found 0.6"},
+         "$.render.shadow_cascades.blend: expected a number at least 0 and at most 0.5, found 0.6"},
         {"UnknownShadowCascadeKey", R"("render": {"shadow_cascades": {"near": 1}})",
          "$.render.shadow_cascades.near: unknown key; expected count, split, blend, distance_m"},
         {"ShadowVolumesOfNothing", R"("render": {"shadow_volumes": {"significant_px": 0}})",

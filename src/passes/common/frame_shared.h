@@ -74,9 +74,12 @@ SHADING_CONST uint frame_aov_opacity = 8u;    // its cover
 
 SHADING_CONST uint shadow_filter_nearest = 0u;  // the texel grid moves between samples and the mean filters
 SHADING_CONST uint shadow_filter_percentage_closer = 1u;
+// 2: shadow_lookup.glsl's own
+SHADING_CONST uint shadow_filter_contact_hardening = 3u;  // as wide as the penumbra of a directional light's disc
 
 SHADING_CONST uint shadow_kind_perspective = 0u;
 SHADING_CONST uint shadow_kind_orthographic = 1u;
+SHADING_CONST uint shadow_kind_none = 2u;  // no map: a cascade that is not needed
 
 /// One square of the shadow map array. The point seen at normalized device coordinates (u, v) lies at
 ///   perspective:  origin + w (forward + u axis_u + v axis_v), stored depth near_m / w
@@ -94,7 +97,11 @@ struct ShadowViewData {
     uint corner_x;  // texels
     uint corner_y;
     uint size;
-    uint padding;
+    uint wider;  // 1: the next view is a wider one of the same light
+    float border;  // of a cascade: share of its half width over which wider views take over
+    float disc_tangent;  // of the angular radius of the directional light that filters soften; 0: a point
+    uint padding0;
+    uint padding1;
 };
 
 /// What a cull or raster view needs.

@@ -49,43 +49,50 @@ const uint tap_lit = 0u;
 const uint tap_blocked = 1u;
 const uint tap_beyond = 2u;  // the map looks past the receiver's edge there and knows nothing of it
 
-/// Whether what is stored at the texel stands between the receiver and the light. `position`: the receiver's
-/// own, in texels.
-uint shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, vec2 position, int size) {
+float stored_depth(ShadowViewData view, ivec2 texel, int size) {
+    const ivec2 within = clamp(texel, ivec2(0), ivec2(size - 1));
+    return texelFetch(shadow_maps, ivec3(within + ivec2(view.corner_x, view.corner_y), int(view.layer)), 0).r;
+}
+
+float plane_slope(ReceiverPlane plane) { return abs(plane.gradient.x) + abs(plane.gradient.y); }
+float depth_rounding(ShadowViewData view, ReceiverPlane plane) {
+    return shadow_depth_rounding * (abs(plane.depth) + plane_slope(plane) + (view.kind == shadow_kind_orthographic ? 1.0f : 0.0f));
+}
+
+/// What is stored at the texel against the receiver's plane there; blocked: it is nearer to the light.
+uint plane_tap(ShadowViewData view, ReceiverPlane plane, float stored, ivec2 texel, int size) {
     // Rows run down from the top, where the second coordinate is +1.
     const vec2 center = ((vec2(texel) + 0.5f) * (2.0f / float(size)) - 1.0f) * vec2(1.0f, -1.0f);
-    const ivec3 place = ivec3(clamp(texel, ivec2(0), ivec2(size - 1)) + ivec2(view.corner_x, view.corner_y), int(view.layer));
-    const float stored = texelFetch(shadow_maps, place, 0).r;
-    const float slope = abs(plane.gradient.x) + abs(plane.gradient.y);
-    const float texel_slope = slope * (2.0f / float(size));
-    const float rounding = shadow_depth_rounding * (abs(plane.depth) + slope + (view.kind == shadow_kind_orthographic ? 1.0f : 0.0f));
     float expected = plane.depth + dot(plane.gradient, center);
     // A grazing plane can pass behind a perspective view's horizon within the texel: what stands there is
     // compared with half the receiver's own depth at least.
     if (view.kind == shadow_kind_perspective) expected = max(expected, 0.5f * plane.own_depth);
-    const float bias = texel_slope * shadow_snap_texels + rounding;
+    const float bias = plane_slope(plane) * (2.0f / float(size)) * shadow_snap_texels + depth_rounding(view, plane);
     if (stored < expected - bias) return tap_beyond;
-    if (stored <= expected + bias) return tap_lit;
+    return stored <= expected + bias ? tap_lit : tap_blocked;
+}
 
+/// Whether what is stored at the texel stands between the receiver and the light. `position`: the receiver's
+/// own, in texels.
+uint shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, vec2 position, int size) {
+    const float stored = stored_depth(view, texel, size);
+    const uint tap = plane_tap(view, plane, stored, texel, size);
+    if (tap != tap_blocked) return tap;
+    const ivec3 place = ivec3(clamp(texel, ivec2(0), ivec2(size - 1)) + ivec2(view.corner_x, view.corner_y), int(view.layer));
     const vec2 stored_slope = texelFetch(shadow_slopes, place, 0).rg * stored;
     const float at_receiver = stored + dot(stored_slope, position - (vec2(texel) + 0.5f));
     const float stored_bias = (abs(stored_slope.x) + abs(stored_slope.y)) * shadow_snap_texels;
-    return at_receiver <= plane.own_depth + stored_bias + rounding ? tap_lit : tap_blocked;
+    return at_receiver <= plane.own_depth + stored_bias + depth_rounding(view, plane) ? tap_lit : tap_blocked;
 }
 
 // As shadow_filter_nearest, of a receiver that stands off every surface: what lies beyond it is not between it and the light.
 const uint shadow_filter_free = 2u;
 
-float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode) {
-    const ShadowViewData view = shadow_views[view_index];
-    const int size = int(view.size);
-    const ReceiverPlane plane = receiver_plane(view, point, normal);
-    if (any(greaterThan(abs(plane.at), vec2(1.0f)))) return 1.0f;  // outside what the light's map covers
-    const vec2 position = (plane.at * vec2(0.5f, -0.5f) + 0.5f) * float(size);
-    const bool nearest = filter_mode != shadow_filter_percentage_closer;
-    // Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels, the nearest
-    // first, or that one alone. Texels that look past the edge of the receiver's surface have no say: through
-    // them light would leak along the seams of walls.
+/// Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels, the nearest
+/// first, or that one alone. Texels that look past the edge of the receiver's surface have no say: through
+/// them light would leak along the seams of walls.
+float filtered_by_texels(ShadowViewData view, ReceiverPlane plane, vec2 position, int size, uint filter_mode) {
+    const bool nearest = filter_mode == shadow_filter_nearest || filter_mode == shadow_filter_free;
     const ivec2 texel = ivec2(floor(position));
     const vec2 offset = position - vec2(texel) - 0.5f;
     const ivec2 side = ivec2(offset.x < 0.0f ? -1 : 1, offset.y < 0.0f ? -1 : 1);
@@ -104,6 +111,117 @@ float shadow_in_view(uint view_index, vec3 point, vec3 normal, uint filter_mode)
     return known > 0.0f ? lit / known : 1.0f;
 }
 
+// Taps that look for what stands in the way, and that find its share of the light's disc.
+const int search_taps = 16;
+const int disc_taps = 32;
+// Within this many texels a map resolves folds by the planes of its triangles, beyond by the cone to the light's disc.
+const float shadow_plane_texels = 1.5f;
+
+/// Points evenly over the unit disc, from its middle outwards (Vogel 1979, "A better way to construct the sunflower head").
+vec2 disc_point(int index, int count) {
+    const float golden_angle = 2.3999632f;
+    const float angle = float(index) * golden_angle;
+    return sqrt((float(index) + 0.5f) / float(count)) * vec2(cos(angle), sin(angle));
+}
+
+bool in_map(ivec2 texel, int size) { return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(size))); }
+
+/// Mean distance, in metres along the light, of what stands before the receiver's plane within `radius` metres beside
+/// it; 0: nothing. `umbra`: all of it hides the disc.
+float blocker_distance(ShadowViewData view, ReceiverPlane plane, vec2 position, vec2 texels_a_metre, float radius, int size, out bool umbra) {
+    float sum = 0.0f;
+    float blockers = 0.0f;
+    int hiding = 0;
+    [[dont_unroll]] for (int i = 0; i < search_taps; ++i) {
+        const vec2 offset = disc_point(i, search_taps) * radius;
+        const ivec2 texel = ivec2(floor(position + offset * texels_a_metre));
+        if (!in_map(texel, size)) continue;
+        const float stored = stored_depth(view, texel, size);
+        const float distance_m = (stored - plane.own_depth) * view.range_m;
+        if (distance_m <= 0.0f || plane_tap(view, plane, stored, texel, size) != tap_blocked) continue;
+        sum += distance_m;
+        blockers += 1.0f;
+        // A tap stands for a disc about it of its share of the area.
+        if (length(offset) - radius * inversesqrt(float(search_taps)) <= distance_m * view.disc_tangent) ++hiding;
+    }
+    umbra = hiding == search_taps;
+    return blockers > 0.0f ? sum / blockers : 0.0f;
+}
+
+/// Share of the light's disc that the receiver sees: a penumbra as wide as the disc looks from what stands in the way
+/// (Fernando 2005, "Percentage-Closer Soft Shadows"; a disc at infinity makes it distance · 2 tan of its angular radius).
+float contact_hardened(ShadowViewData view, ReceiverPlane plane, vec2 position, int size) {
+    const vec2 texels_a_metre = 0.5f * float(size) / vec2(length(view.axis_u), length(view.axis_v));
+    const float finest = max(texels_a_metre.x, texels_a_metre.y);
+    // The widest: from as near to the light as anything stands.
+    float radius = (1.0f - plane.own_depth) * view.range_m * view.disc_tangent;
+    bool umbra = false;
+    for (int search = 0; search < 2 && radius * finest > 1.0f; ++search) {
+        // Found in a wide disc, then in the one that it itself would be seen through.
+        bool all_hidden;
+        const float distance_m = blocker_distance(view, plane, position, texels_a_metre, radius, size, all_hidden);
+        umbra = umbra || all_hidden;
+        if (umbra) return 0.0f;
+        if (distance_m > 0.0f) radius = distance_m * view.disc_tangent;
+        else if (search == 0) radius = 0.0f;
+    }
+    if (radius * finest <= 1.0f) return filtered_by_texels(view, plane, position, size, shadow_filter_percentage_closer);
+    const float half_texel = 0.5f * sqrt(2.0f) / finest;
+    float lit = 0.0f;
+    float known = 0.0f;
+    [[dont_unroll]] for (int i = 0; i < disc_taps; ++i) {
+        const vec2 offset = disc_point(i, disc_taps) * radius;
+        const vec2 shift = offset * texels_a_metre;
+        const ivec2 texel = ivec2(floor(position + shift));
+        if (!in_map(texel, size)) continue;
+        uint tap;
+        if (dot(shift, shift) <= shadow_plane_texels * shadow_plane_texels) {
+            tap = shadow_tap(view, plane, texel, position, size);
+            if (tap == tap_beyond) continue;
+        } else {
+            const float stored = stored_depth(view, texel, size);
+            tap = plane_tap(view, plane, stored, texel, size);
+            // Folds and corners that rise towards the light stand beside the cone.
+            if ((stored - plane.own_depth) * view.range_m * view.disc_tangent < length(offset) - half_texel) tap = tap_lit;
+        }
+        known += 1.0f;
+        lit += tap == tap_blocked ? 0.0f : 1.0f;
+    }
+    return known > 0.0f ? lit / known : 1.0f;
+}
+
+float shadow_in_view(ShadowViewData view, ReceiverPlane plane, uint filter_mode) {
+    const int size = int(view.size);
+    const vec2 position = (plane.at * vec2(0.5f, -0.5f) + 0.5f) * float(size);
+    if (filter_mode == shadow_filter_contact_hardening && view.disc_tangent > 0.0f) return contact_hardened(view, plane, position, size);
+    return filtered_by_texels(view, plane, position, size, filter_mode);
+}
+
+/// A point's share of the say of a view: all of it within, less over the border of a cascade, none outside.
+float view_share(ShadowViewData view, vec2 at) {
+    const float inside = 1.0f - max(abs(at.x), abs(at.y));
+    if (inside < 0.0f) return 0.0f;
+    return view.border > 0.0f ? min(inside / view.border, 1.0f) : 1.0f;
+}
+
+/// By the narrowest view that the point lies in and, in its border, by the next as well. Outside what the light's maps
+/// cover nothing blocks it.
+float shadow_in_views(uint first, vec3 point, vec3 normal, uint filter_mode) {
+    float lit = 0.0f;
+    float rest = 1.0f;
+    for (uint index = first; rest > 0.0f; ++index) {
+        const ShadowViewData view = shadow_views[index];
+        if (view.kind != shadow_kind_none) {
+            const ReceiverPlane plane = receiver_plane(view, point, normal);
+            const float share = view_share(view, plane.at);
+            if (share > 0.0f) lit += rest * share * shadow_in_view(view, plane, filter_mode);
+            rest *= 1.0f - share;
+        }
+        if (view.wider == 0u) break;
+    }
+    return lit + rest;
+}
+
 /// Face of a cube of views: +X −X +Y −Y +Z −Z, by the major axis.
 uint cube_face(vec3 direction) {
     const vec3 size = abs(direction);
@@ -118,7 +236,7 @@ float light_visibility(LightData light, vec3 point, vec3 normal, uint filter_mod
     uint view = light.shadow & 0x7fffffffu;
     const bool cube = (light.shadow & 0x80000000u) != 0u;
     if (cube) view += cube_face(point - light.position);
-    return shadow_in_view(view, point, normal, filter_mode);
+    return shadow_in_views(view, point, normal, filter_mode);
 }
 
 #endif
