@@ -32,7 +32,7 @@ struct PathOptions {
     /// of the luminance at which a part of the picture is done (docs/path-tracing.md).
     std::optional<double> target_error;
     double target_floor = 0;        ///< measure: to the target error smaller values count as this
-    std::vector<std::string> aovs;  ///< albedo normal depth position direct indirect variance samples
+    std::vector<std::string> aovs;  ///< albedo normal depth position direct indirect variance samples illuminance
     bool blue_noise = true;  ///< neighbouring pixels err apart; false: independently, as with a variance or target error
     bool light_tree = true;  ///< false: lights are selected by flux alone, wherever they stand
     bool lanes = true;       ///< eight paths at a time where the processor has AVX2; false: one by one

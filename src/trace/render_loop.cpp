@@ -14,12 +14,13 @@
 #include <cmath>
 #include <optional>
 
+#include "trace/illuminance_layer.h"
 #include "trace/resume.h"
 
 namespace heliodon::trace {
 namespace {
 
-constexpr std::array aov_names{"albedo", "normal", "depth", "position", "direct", "indirect", "variance", "samples"};
+constexpr std::array aov_names{"albedo", "normal", "depth", "position", "direct", "indirect", "variance", "samples", "illuminance"};
 
 bool is_finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -263,6 +264,8 @@ Result<Picture> render_picture(const CpuKernel& shared_kernel, const EmbreeScene
             stopped = progress && !progress(fraction());
         }
         add_surface_layers(shared_kernel, scene, options, work.done, picture);
+        if (wants(options, "illuminance"))
+            picture.layers.push_back({"illuminance", illuminance_layer(shared_kernel, scene, options, work.done)});
     });
     statistics.seconds = elapsed();
     statistics.samples_per_pixel = work.done;
