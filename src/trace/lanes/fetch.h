@@ -158,12 +158,15 @@ inline LaneTexels texels_along(Float u, Int size, Int wrap, Float half) {
     return {wrapped(first), wrapped(first + 1), x - below};
 }
 
-/// The texels number `at`, decoded.
-inline Vec4<Float> texels_at(const LaneScene& k, const LaneTexture& texture, Int format, Int at) {
+/// The texels number `at`, as they are stored.
+inline Uint texel_bytes(const LaneTexture& texture, Int at) {
     const auto four = [&](int half) {
         return _mm256_i64gather_epi32(static_cast<const int*>(nullptr), texture.addresses(half, at * 4), 1);
     };
-    const Uint bytes = (Uint)_mm256_set_m128i(four(1), four(0));
+    return (Uint)_mm256_set_m128i(four(1), four(0));
+}
+/// Decoded; `at` their number, of those of four floats.
+inline Vec4<Float> decoded(const LaneScene& k, const LaneTexture& texture, Int format, Uint bytes, Int at) {
     const Mask srgb = format == static_cast<int>(TextureFormat::srgb8),
                floats = format == static_cast<int>(TextureFormat::float32);
     const auto decode = [&](Uint byte) {
@@ -194,15 +197,15 @@ inline Vec4<Float> scene_texture(const LaneScene& k, Mask m, Uint index, const V
     const LaneTexels x = texels_along(uv.x, width, modes >> 8 & 255, half);
     const LaneTexels y = texels_along(uv.y, texture.height(), modes >> 16 & 255, half);
     const Int top = y.first * width, bottom = y.second * width;
+    const Int at[4] = {top + x.first, top + x.second, bottom + x.first, bottom + x.second};
+    Uint bytes[4];  // all are on their way before the first is decoded
+    for (int i = 0; i < 4; ++i) bytes[i] = texel_bytes(texture, at[i]);
     const Float across = choose(nearest, Float{}, x.part), down = choose(nearest, Float{}, y.part);
+    const auto texel = [&](int i) { return decoded(k, texture, format, bytes[i], at[i]); };
     const auto between = [](const Vec4<Float>& a, const Vec4<Float>& b, Float t) {
         return each(a, b, [t](Float p, Float q) { return mix(p, q, t); });
     };
-    return between(
-        between(texels_at(k, texture, format, top + x.first), texels_at(k, texture, format, top + x.second), across),
-        between(texels_at(k, texture, format, bottom + x.first), texels_at(k, texture, format, bottom + x.second),
-                across),
-        down);
+    return between(between(texel(0), texel(1), across), between(texel(2), texel(3), across), down);
 }
 inline Vec2<Float> scene_texture_size(const LaneScene& k, Mask m, Uint index) {
     const LaneTexture texture = texture_of(k, m, index);
