@@ -71,8 +71,8 @@ ShadowVolumes::ShadowVolumes(gpu::Device& device, gpu::Pipelines& pipelines)
     : device_(device), pipelines_(pipelines), map_executor_(device) {}
 
 Result<void> ShadowVolumes::update(const GpuScene& scene, const passes::SceneInputs& inputs, glm::vec3 sun,
-                                   const ShadowVolumeSettings& settings, bool all_triangles) {
-    const Key wanted{scene.surface_revision(), sun, settings, all_triangles};
+                                   const ShadowVolumeSettings& settings, VolumesBehind behind) {
+    const Key wanted{scene.surface_revision(), sun, settings, behind};
     scene_ = inputs;
     scene_.has_tested = scene_.has_blended = false;
     if (wanted == key_) return {};
@@ -133,6 +133,7 @@ Result<void> ShadowVolumes::list_casters(const GpuScene& scene) {
     if (auto done = upload(device_, ranges_, ranges); !done) return done;
     if (auto done = upload(device_, first_triangles_, first_triangles); !done) return done;
     if (auto done = states_.reserve(device_, triangles * sizeof(std::uint32_t), 0); !done) return done;
+    if (auto done = tallies_.reserve(device_, ranges.size() * sizeof(shading::CasterTally), 0); !done) return done;
     casters_ = {&ranges_.buffer(),  &first_triangles_.buffer(), &edges_.buffer(), &edge_uses_.buffer(), &states_.buffer(),
                 static_cast<std::uint32_t>(ranges.size()), static_cast<std::uint32_t>(triangles),
                 static_cast<std::uint32_t>(edges)};
@@ -192,7 +193,7 @@ Result<void> ShadowVolumes::build_map_graph(std::uint32_t size) {
 }
 
 Result<void> ShadowVolumes::find_lit_triangles(const Bounds& bounds) {
-    statistics_ = {.triangles = casters_.triangle_count};
+    statistics_ = {.triangles = casters_.triangle_count, .builds = statistics_.builds + 1};
     if (casters_.triangle_count == 0) return {};
     const View view = view_of(bounds, key_.sun);
     const auto size = static_cast<std::uint32_t>(key_.settings.map_size);
@@ -203,7 +204,7 @@ Result<void> ShadowVolumes::find_lit_triangles(const Bounds& bounds) {
         return passes::record_classify(commands, pipelines_, scene_, casters_, key_.sun, significant_m2);
     });
     // Volumes behind all triangles need not know which are lit.
-    if (!done || key_.all_triangles) return done;
+    if (!done || key_.behind == VolumesBehind::all) return done;
     std::vector<Part> parts{{0, 0}};
     const std::uint32_t last = last_round(key_.settings.significant_px);
     for (std::uint32_t round = 0; round <= last && !parts.empty(); ++round) {
@@ -211,7 +212,7 @@ Result<void> ShadowVolumes::find_lit_triangles(const Bounds& bounds) {
         if (!next) return tl::unexpected(next.error());
         parts = std::move(*next);
     }
-    return {};
+    return key_.behind == VolumesBehind::fewest ? join_triangles() : Result<void>{};
 }
 
 Result<std::vector<ShadowVolumes::Part>> ShadowVolumes::draw_round(const View& view, std::uint32_t round, bool last,
@@ -243,7 +244,17 @@ Result<std::vector<ShadowVolumes::Part>> ShadowVolumes::draw_round(const View& v
     return next;
 }
 
+Result<void> ShadowVolumes::join_triangles() {
+    if (auto done = weights_.reserve(device_, casters_.triangle_count * sizeof(std::int32_t), 0); !done) return done;
+    return run(device_, "joined triangles", [&](gpu::Commands& commands) {
+        for (const GrowingBuffer* zeros : {&weights_, &tallies_}) commands.fill(zeros->buffer(), 0);
+        commands.memory_barrier(everything, everything);
+        return passes::record_joins(commands, pipelines_, scene_, casters_, weights_.buffer(), tallies_.buffer());
+    });
+}
+
 Result<void> ShadowVolumes::list_volumes() {
+    constexpr std::uint32_t choices[] = {shading::behind_lit, shading::behind_fewest, shading::behind_all};
     std::uint32_t side_count = 1, cap_count = 1;
     while (true) {
         constexpr std::uint64_t side_bytes = 3 * sizeof(std::uint32_t), cap_bytes = sizeof(glm::uvec2);
@@ -251,7 +262,7 @@ Result<void> ShadowVolumes::list_volumes() {
         if (auto done = caps_.reserve(device_, 2 * cap_count * cap_bytes, 0); !done) return done;
         const std::vector<shading::VolumeDraw> none(shading::volume_draws, {0, 1, 0, 0});
         if (auto done = upload(device_, draws_, none); !done) return done;
-        const passes::VolumeLists lists{&sides_.buffer(), &caps_.buffer(), &draws_.buffer(),
+        const passes::VolumeLists lists{&sides_.buffer(), &caps_.buffer(), &draws_.buffer(), &tallies_.buffer(),
                                         static_cast<std::uint32_t>(sides_.size() / side_bytes),
                                         static_cast<std::uint32_t>(caps_.size() / (2 * cap_bytes))};
         inputs_.sides = lists.sides;
@@ -260,7 +271,8 @@ Result<void> ShadowVolumes::list_volumes() {
         inputs_.cap_capacity = lists.cap_capacity;
         if (casters_.triangle_count == 0) return {};
         auto done = run(device_, "volume lists", [&](gpu::Commands& commands) {
-            return passes::record_volume_lists(commands, pipelines_, scene_, casters_, lists, key_.all_triangles);
+            return passes::record_volume_lists(commands, pipelines_, scene_, casters_, lists,
+                                               choices[static_cast<std::size_t>(key_.behind)]);
         });
         if (!done) return done;
         auto counted = device_.read_back(draws_.buffer(), 0, sizeof(shading::VolumeDraw) * shading::volume_draws);

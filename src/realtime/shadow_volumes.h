@@ -16,15 +16,16 @@ namespace heliodon::realtime {
 
 /// The shadow volumes of one directional light: finds the triangles that it lights in maps of what it sees, and the
 /// silhouettes of these. That is enough, since what first stands in a point's way to the light is itself lit. Opaque
-/// surfaces cast volumes, alpha-masked and blended ones do not.
+/// surfaces cast volumes, alpha-masked and blended ones do not. Triangles that face the light have volumes too where
+/// there are fewer silhouettes with them.
 class ShadowVolumes {
 public:
     ShadowVolumes(gpu::Device& device, gpu::Pipelines& pipelines);
 
     /// Makes them anew where the surfaces, the light or the settings changed, and waits. `sun`: unit, the way the light
-    /// travels. `all_triangles`: behind all that face it, for comparison.
+    /// travels.
     [[nodiscard]] Result<void> update(const GpuScene& scene, const passes::SceneInputs& inputs, glm::vec3 sun,
-                                      const ShadowVolumeSettings& settings, bool all_triangles);
+                                      const ShadowVolumeSettings& settings, VolumesBehind behind);
     /// What the pass draws; the owner of the picture sets its world_to_clip.
     [[nodiscard]] passes::ShadowVolumeInputs& inputs() { return inputs_; }
     [[nodiscard]] const ShadowVolumeStatistics& statistics() const { return statistics_; }
@@ -34,7 +35,7 @@ private:
         std::uint64_t surfaces = ~0ull;
         glm::vec3 sun{0};
         ShadowVolumeSettings settings;
-        bool all_triangles = false;
+        VolumesBehind behind = VolumesBehind::fewest;
         bool operator==(const Key&) const = default;
     };
     /// One part of the map: of 4^round squares.
@@ -55,6 +56,7 @@ private:
     [[nodiscard]] Result<void> find_lit_triangles(const Bounds& bounds);
     [[nodiscard]] Result<std::vector<Part>> draw_round(const View& view, std::uint32_t round, bool last,
                                                        const std::vector<Part>& parts);
+    [[nodiscard]] Result<void> join_triangles();
     [[nodiscard]] Result<void> list_volumes();
 
     gpu::Device& device_;
@@ -72,7 +74,7 @@ private:
     std::vector<std::uint32_t> edge_tables_, edge_counts_;               // by geometry
     GrowingBuffer ranges_{"casters", 0}, first_triangles_{"first triangles", 0}, edges_{"caster edges", 0},
         edge_uses_{"caster edge uses", 0}, states_{"caster states", 0}, header_{"lit map header", 0}, view_{"lit map view", 0},
-        sides_{"volume sides", 0}, caps_{"volume caps", 0}, draws_{"volume draws", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
+        weights_{"join weights", 0}, tallies_{"caster tallies", 0}, sides_{"volume sides", 0}, caps_{"volume caps", 0}, draws_{"volume draws", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
 };
 
 }  // namespace heliodon::realtime

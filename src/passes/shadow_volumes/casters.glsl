@@ -6,7 +6,7 @@
 
 layout(set = 0, binding = 12, std430) readonly buffer CasterRanges { CasterRange caster_ranges[]; };
 
-CasterRange caster_of_triangle(uint triangle, uint range_count) {
+uint caster_of_triangle(uint triangle, uint range_count) {
     uint low = 0u;
     uint high = range_count;
     while (high - low > 1u) {
@@ -14,10 +14,10 @@ CasterRange caster_of_triangle(uint triangle, uint range_count) {
         if (caster_ranges[middle].first_triangle <= triangle) low = middle;
         else high = middle;
     }
-    return caster_ranges[low];
+    return low;
 }
 
-CasterRange caster_of_edge(uint edge, uint range_count) {
+uint caster_of_edge(uint edge, uint range_count) {
     uint low = 0u;
     uint high = range_count;
     while (high - low > 1u) {
@@ -25,7 +25,7 @@ CasterRange caster_of_edge(uint edge, uint range_count) {
         if (caster_ranges[middle].first_edge <= edge) low = middle;
         else high = middle;
     }
-    return caster_ranges[low];
+    return low;
 }
 
 uint caster_first_index(CasterRange range, uint triangle) {
@@ -42,10 +42,13 @@ vec3[3] caster_corners(CasterRange range, uint triangle) {
     return corners;
 }
 
-/// Whether a volume stands behind the triangle.
-bool casts_volume(uint state, uint all_triangles) {
+/// Whether a volume stands behind the triangle; `choice`: not behind_fewest.
+bool casts_volume(uint state, uint choice) {
     if ((state & (caster_toward | caster_away)) == 0u) return false;
-    return all_triangles != 0u ? (state & caster_rear) == 0u : (state & caster_lit) != 0u;
+    if (choice == behind_all) return (state & caster_rear) == 0u;
+    return (state & (choice == behind_joined ? caster_lit | caster_joined : caster_lit)) != 0u;
 }
+
+uint fewest_sides(CasterTally tally) { return tally.all < tally.joined ? behind_all : behind_joined; }
 
 #endif

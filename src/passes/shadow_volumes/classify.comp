@@ -11,7 +11,7 @@ layout(push_constant) uniform Push { ClassifyConstants push; };
 void main() {
     const uint triangle = linear_invocation();
     if (triangle >= push.triangle_count) return;
-    const CasterRange range = caster_of_triangle(triangle, push.range_count);
+    const CasterRange range = caster_ranges[caster_of_triangle(triangle, push.range_count)];
     const vec3 corners[3] = caster_corners(range, triangle);
     precise vec3 e1 = corners[1] - corners[0];
     precise vec3 e2 = corners[2] - corners[0];

@@ -12,6 +12,9 @@ using graph::PassBuilder;
 using graph::PassContext;
 using graph::Usage;
 
+// Each step a silhouette gives way by a row of triangles at most; what is left then is seldom shortened by more.
+constexpr int join_steps = 16;
+
 /// Workgroups of 64 spread over rows as linear_groups.glsl counts them.
 glm::uvec3 groups_for(std::uint32_t threads) {
     const std::uint32_t groups = threads / 64 + (threads % 64 ? 1 : 0);
@@ -72,23 +75,44 @@ Result<void> add_lit_map(graph::Graph& graph, gpu::Pipelines& pipelines, SceneIn
     return {};
 }
 
+Result<void> record_joins(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene, const Casters& casters,
+                          const gpu::Buffer& weights, const gpu::Buffer& tallies) {
+    auto weigh = pipelines.compute("passes/shadow_volumes/weigh_joins.comp");
+    if (!weigh) return tl::unexpected(weigh.error());
+    auto join = pipelines.compute("passes/shadow_volumes/join.comp");
+    if (!join) return tl::unexpected(join.error());
+    auto tally = pipelines.compute("passes/shadow_volumes/tally.comp");
+    if (!tally) return tl::unexpected(tally.error());
+    const shading::SilhouetteConstants edges{casters.range_count, casters.edge_count, 0, 0};
+    const shading::SilhouetteConstants triangles{casters.range_count, casters.triangle_count, 0, 0};
+    const std::initializer_list<NumberedBinding> bound{{9, *casters.edges}, {10, *casters.edge_uses}, {12, *casters.ranges},
+                                                       {13, *casters.states}, {15, weights}, {16, tallies}};
+    for (int step = 0; step < join_steps; ++step) {
+        commands.dispatch(**weigh, edges, select_bindings(**weigh, scene, bound), groups_for(casters.edge_count));
+        commands.compute_barrier();
+        commands.dispatch(**join, triangles, select_bindings(**join, scene, bound), groups_for(casters.triangle_count));
+        commands.compute_barrier();
+    }
+    commands.dispatch(**tally, edges, select_bindings(**tally, scene, bound), groups_for(casters.edge_count));
+    return {};
+}
+
 Result<void> record_volume_lists(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                 const Casters& casters, const VolumeLists& lists, bool all_triangles) {
+                                 const Casters& casters, const VolumeLists& lists, std::uint32_t choice) {
     auto silhouettes = pipelines.compute("passes/shadow_volumes/silhouettes.comp");
     if (!silhouettes) return tl::unexpected(silhouettes.error());
     auto caps = pipelines.compute("passes/shadow_volumes/caps.comp");
     if (!caps) return tl::unexpected(caps.error());
-    const std::uint32_t all = all_triangles ? 1 : 0;
-    const shading::SilhouetteConstants edges{casters.range_count, casters.edge_count, lists.side_capacity, all};
+    const shading::SilhouetteConstants edges{casters.range_count, casters.edge_count, lists.side_capacity, choice};
     commands.dispatch(**silhouettes, edges,
                       select_bindings(**silhouettes, scene,
                                       {{9, *casters.edges}, {10, *casters.edge_uses}, {12, *casters.ranges},
-                                       {13, *casters.states}, {14, *lists.draws}, {15, *lists.sides}}),
+                                       {13, *casters.states}, {14, *lists.draws}, {15, *lists.sides}, {16, *lists.tallies}}),
                       groups_for(casters.edge_count));
-    const shading::SilhouetteConstants triangles{casters.range_count, casters.triangle_count, lists.cap_capacity, all};
+    const shading::SilhouetteConstants triangles{casters.range_count, casters.triangle_count, lists.cap_capacity, choice};
     commands.dispatch(**caps, triangles,
                       select_bindings(**caps, scene,
-                                      {{12, *casters.ranges}, {13, *casters.states}, {14, *lists.draws}, {15, *lists.caps}}),
+                                      {{12, *casters.ranges}, {13, *casters.states}, {14, *lists.draws}, {15, *lists.caps}, {16, *lists.tallies}}),
                       groups_for(casters.triangle_count));
     return {};
 }

@@ -28,13 +28,18 @@ struct LitMapBuffers {
                                        const LitMapBuffers& buffers, const gpu::Buffer& view,
                                        const shading::LitMapConstants& part, std::uint32_t size, std::uint32_t instance_capacity);
 
+/// Joins triangles to the lit ones where that leaves fewer silhouettes, and tallies these by instance (CasterTally, 0
+/// before). `weights`: a word a triangle, 0 before and after.
+[[nodiscard]] Result<void> record_joins(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                        const Casters& casters, const gpu::Buffer& weights, const gpu::Buffer& tallies);
+
 /// What volumes are made of, from what is known of the triangles. `draws`: VolumeDraw, their counts 0; they count what
 /// there is also where there is no room for it.
 struct VolumeLists {
-    const gpu::Buffer *sides = nullptr, *caps = nullptr, *draws = nullptr;
+    const gpu::Buffer *sides = nullptr, *caps = nullptr, *draws = nullptr, *tallies = nullptr;
     std::uint32_t side_capacity = 0, cap_capacity = 0;
 };
 [[nodiscard]] Result<void> record_volume_lists(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                               const Casters& casters, const VolumeLists& lists, bool all_triangles);
+                                               const Casters& casters, const VolumeLists& lists, std::uint32_t choice);
 
 }  // namespace heliodon::passes

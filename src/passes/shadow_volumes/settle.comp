@@ -51,7 +51,7 @@ void main() {
     if (triangle >= push.triangle_count) return;
     const uint state = states[triangle];
     if ((state & caster_lit) != 0u || (state & (caster_toward | caster_away)) == 0u) return;
-    const vec3 corners[3] = caster_corners(caster_of_triangle(triangle, push.range_count), triangle);
+    const vec3 corners[3] = caster_corners(caster_ranges[caster_of_triangle(triangle, push.range_count)], triangle);
     const vec3 a = place_of(corners[0]);
     const vec3 b = place_of(corners[1]);
     const vec3 c = place_of(corners[2]);

@@ -82,7 +82,7 @@ Result<graph::ImageHandle> add_shadow_volumes(graph::Graph& graph, gpu::Pipeline
     const auto depth = graph.create_image({.name = "volume depth", .format = volume_depth_format, .extent = size});
     const auto shadowed = graph.create_image({.name = "shadowed", .format = shadowed_format, .extent = size});
     graph.add_pass(
-        "volume depth", graph::PassKind::graphics,
+        "shadow volume depth", graph::PassKind::graphics,
         [&](graph::PassBuilder& pass) {
             pass.read(lists.commands, graph::Usage::indirect);
             pass.read(lists.counts, graph::Usage::indirect);

@@ -26,6 +26,7 @@ SHADING_CONST uint caster_toward = 2u;       // its corners go round counter-clo
 SHADING_CONST uint caster_away = 4u;         // … or clockwise; neither: on edge, or without area
 SHADING_CONST uint caster_significant = 8u;  // it is looked for until it is found
 SHADING_CONST uint caster_rear = 16u;        // of a closed mesh, and averted from the sun: never lit
+SHADING_CONST uint caster_joined = 32u;      // not lit, but with a volume of its own there are fewer silhouettes
 
 struct ClassifyConstants {
     vec3 sun;  // unit, the way its light travels
@@ -60,9 +61,23 @@ SHADING_CONST float lit_map_seen_texels = 4.0f;
 
 struct SilhouetteConstants {
     uint range_count;
-    uint count;         // triangles or edges
+    uint count;     // triangles or edges
     uint capacity;
-    uint all_triangles;  // 1: volumes behind all that face the sun, not only lit ones
+    uint choice;    // behind_…
+};
+// Which triangles of an instance have volumes: the lit ones, these and joined ones, all that face the sun, or the fewer
+// sides of the last two.
+SHADING_CONST uint behind_lit = 0u;
+SHADING_CONST uint behind_joined = 1u;
+SHADING_CONST uint behind_all = 2u;
+SHADING_CONST uint behind_fewest = 3u;
+
+/// Of an instance: the sides of its volumes, by that choice.
+struct CasterTally {
+    uint lit;
+    uint joined;
+    uint all;
+    uint padding;
 };
 
 /// VkDrawIndirectCommand
