@@ -172,7 +172,7 @@ struct RealtimeRenderer::State {
             sample.timed_whole = overlaps && i >= warm_up_frames && (i - warm_up_frames) % 2 == 1;
             sample.jitter_shadows = false;
             sample.shadow_index = 0;
-            sample.force_shadows = true;
+            sample.force_shadows = !options.keep_shadows;
             sample.count = 0;  // as in motion: nothing is left to later frames
             sample.cone_traced = options.gi == "vct";
             const auto begin = std::chrono::steady_clock::now();

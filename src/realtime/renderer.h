@@ -40,6 +40,7 @@ struct RealtimeOptions {
     std::string gi = "none";    ///< or vct: voxel cone tracing, as the scene's render block has it
     bool environment = true;    ///< false: the sky gives no light and is black
     int frames_timed = 0;       ///< > 0: time this many frames after warm-up
+    bool keep_shadows = false;  ///< timed frames draw their shadow maps once, not anew each
     /// albedo normal depth position direct indirect: depth is the distance along the view axis in metres; depth
     /// and position are means over what was hit (0 where nothing was), the others box-filtered like the picture.
     /// With vct also ao (openness of the hemisphere by cosine), voxels and opacity (the volume as the camera sees it).

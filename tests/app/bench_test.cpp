@@ -110,6 +110,45 @@ TEST_F(Bench, CostHasARowForEachAmountOfWork) {
     EXPECT_GT(series[0]["rows"][2]["time_over_work"], 0);
 }
 
+TEST_F(Bench, FlyTimesEachSceneInEveryModeAndSaysWhatIsNotThere) {
+    write("s.heliodon.json", walls("0", bulb));
+    const Ended ended = run({"bench", "fly", "--size", "32x24", "--frames", "2", "--json", "--scene", "s.heliodon.json"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json table = json::parse(ended.output);
+    ASSERT_EQ(table["models"].size(), 1u);
+    EXPECT_EQ(table["models"][0]["triangles"], 4);
+    std::map<std::string, json> modes;
+    for (const json& mode : table["models"][0]["modes"]) modes[mode["mode"]] = mode;
+    EXPECT_EQ(modes.size(), 5u);
+    EXPECT_TRUE(modes["light_maps"]["frames_a_second"].is_null());
+    EXPECT_EQ(modes["light_maps"]["note"], "not there yet");
+    const auto shadow_ms = [&](const std::string& mode) {
+        double sum = 0;
+        for (const json& pass : modes[mode]["passes"])
+            if (pass["name"].get<std::string>().starts_with("shadow")) sum += pass["gpu_ms"].get<double>();
+        return sum;
+    };
+    for (const char* mode : {"simple", "sunlight", "sunlight_redrawn", "sunlight_volumes"}) {
+        EXPECT_NEAR(modes[mode]["frames_a_second"].get<double>() * modes[mode]["frame_median_ms"].get<double>(), 1000, 0.1);
+        EXPECT_TRUE(modes[mode]["published_frames_a_second"].is_null()) << "of no published model";
+    }
+    EXPECT_GT(shadow_ms("sunlight_redrawn"), 4 * shadow_ms("sunlight")) << "which drew them before it was timed";
+}
+
+TEST_F(Bench, FlyHasThePublishedModels) {
+    const Ended ended = run({"bench", "fly", "--size", "16x12", "--frames", "1", "--tests", "simple", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json models = json::parse(ended.output)["models"];
+    ASSERT_EQ(models.size(), 3u);
+    const double triangles[] = {138e3, 107e3, 313e3}, simple[] = {33, 33, 24}, maps[] = {35, 38, 26};
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(models[i]["triangles"].get<double>(), triangles[i], 5e-3 * triangles[i]);
+        ASSERT_EQ(models[i]["modes"].size(), 2u);
+        EXPECT_EQ(models[i]["modes"][0]["published_frames_a_second"], simple[i]);
+        EXPECT_EQ(models[i]["modes"][1]["published_frames_a_second"], maps[i]);
+    }
+}
+
 TEST_F(Bench, SaysWhereNoneOfTheTestsAskedForIsOfTheScene) {
     write("s.heliodon.json", walls("0", bulb));
     const Ended ended = run({"bench", "natus", "--scene", "s.heliodon.json", "--tests", "5"});

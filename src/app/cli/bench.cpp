@@ -4,6 +4,7 @@
 
 #include "app/cli/bench_cie171.h"
 #include "app/cli/bench_cost.h"
+#include "app/cli/bench_fly.h"
 #include "app/cli/bench_natus.h"
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
@@ -15,6 +16,7 @@ struct BenchOptions {
     std::string name;
     NatusOptions natus;
     CieOptions cie;
+    std::vector<std::string> scenes;
     std::string tests;        ///< as given: each benchmark has its own
     std::vector<int> voxels;  ///< empty: each benchmark's own
     std::vector<std::string> series{std::begin(cost_series), std::end(cost_series)};
@@ -55,6 +57,22 @@ std::vector<std::string> read_cie_tests(const std::string& text) {
     return tests;
 }
 
+std::vector<FlyMode> read_modes(const std::string& text) {
+    const std::vector<std::string> names = CLI::detail::split(text, ',');
+    std::vector<FlyMode> modes;
+    for (const std::string& name : names) {
+        const auto mode =
+            std::find_if(fly_modes.begin(), fly_modes.end(), [&](const FlyMode& known) { return known.key == name; });
+        if (mode == fly_modes.end())
+            throw CLI::ValidationError(
+                "--tests",
+                "expected names out of simple, sunlight, sunlight_redrawn, sunlight_volumes, found \"" + name + "\"");
+        modes.push_back(*mode);
+    }
+    refuse_repeats("--tests", names, text);
+    return modes;
+}
+
 std::vector<std::string> read_series(const std::string& text) {
     std::vector<std::string> names = CLI::detail::split(text, ',');
     for (const std::string& name : names)
@@ -65,10 +83,20 @@ std::vector<std::string> read_series(const std::string& text) {
     return names;
 }
 
+/// What was given as SCENE files; `--set` needs one.
+std::vector<SceneArgument> scenes_of(const BenchOptions& options) {
+    if (options.scenes.empty() && !options.natus.scene.overrides.empty())
+        throw CLI::ValidationError("--set", "expected with --scene: the built-in scenes are no files");
+    std::vector<SceneArgument> scenes(options.scenes.size(), options.natus.scene);
+    for (std::size_t i = 0; i < scenes.size(); ++i) scenes[i].path = options.scenes[i];
+    return scenes;
+}
+
 Result<void> bench_natus(const BenchOptions& options) {
-    if (options.natus.scene.path.empty() && !options.natus.scene.overrides.empty())
-        throw CLI::ValidationError("--set", "expected with --scene: the built-in scene is no file");
+    const std::vector<SceneArgument> scenes = scenes_of(options);
+    if (scenes.size() > 1) throw CLI::ValidationError("--scene", "expected one scene for natus");
     NatusOptions natus = options.natus;
+    if (!scenes.empty()) natus.scene = scenes.front();
     if (!options.voxels.empty()) natus.voxels = options.voxels;
     if (!options.tests.empty()) natus.tests = read_tests(options.tests);
     const auto report = run_natus(natus);
@@ -77,16 +105,23 @@ Result<void> bench_natus(const BenchOptions& options) {
 }
 
 Result<void> bench_cost(const BenchOptions& options) {
-    const SceneArgument& scene = options.natus.scene;
-    if (!scene.path.empty() || !scene.overrides.empty())
-        throw CLI::ValidationError(scene.path.empty() ? "--set" : "--scene",
-                                   "expected with natus: the cost is measured on built-in scenes");
+    if (!options.scenes.empty() || !options.natus.scene.overrides.empty())
+        throw CLI::ValidationError(options.scenes.empty() ? "--set" : "--scene",
+                                   "expected with natus or fly: the cost is measured on built-in scenes");
     if (options.voxels.size() > 1) throw CLI::ValidationError("--voxels", "expected one grid for the cost");
     const int voxels = options.voxels.empty() ? CostReport{}.voxels : options.voxels.front();
     const TimingOptions& timing = options.natus.timing;
     const auto report = run_cost(timing, voxels, options.series);
     if (!report) return tl::unexpected(report.error());
     return print(options.json ? as_json(*report, timing) : as_text(*report, timing));
+}
+
+Result<void> bench_fly(const BenchOptions& options) {
+    FlyOptions fly{scenes_of(options), options.natus.timing};
+    if (!options.tests.empty()) fly.modes = read_modes(options.tests);
+    const auto report = run_fly(fly);
+    if (!report) return tl::unexpected(report.error());
+    return print(options.json ? as_json(*report, fly) : as_text(*report, fly));
 }
 
 Result<void> bench_cie171(const BenchOptions& options) {
@@ -104,25 +139,31 @@ Action declare_bench(CLI::App& command) {
     auto options = std::make_shared<BenchOptions>();
     NatusOptions& natus = options->natus;
     command
-        .add_option("NAME", options->name,
-                    "natus: five pictures of voxel cone tracing; cost: a frame's time as its work grows; cie171: the path "
-                    "tracer by the test cases of CIE 171:2006")
+        .add_option(
+            "NAME", options->name,
+            "natus: five pictures of voxel cone tracing; fly: frames a second by sun and sky; cost: a frame's time "
+            "as its work grows; cie171: the path tracer by the test cases of CIE 171:2006")
         ->required()
         ->check([](const std::string& name) {
-            const bool known = name == "natus" || name == "cost" || name == "cie171";
-            return known ? "" : "expected natus, cost or cie171, found \"" + name + "\"";
+            const bool known =
+                name == "natus" || name == "fly" || name == "cost" || name == "cie171";
+            return known ? "" : "expected natus, fly, cost or cie171, found \"" + name + "\"";
         });
-    command.add_option("--scene", natus.scene.path,
-                       "natus: scene file instead of the built-in scene; test 5's is NAME-emissive beside it");
+    command.add_option(
+        "--scene", options->scenes,
+        "Scene files instead of the built-in scenes. natus: one, test 5's is NAME-emissive beside it; fly: any "
+        "number");
     add_override_option(command, natus.scene);
     command.add_option_function<std::string>(
         "--size", [&natus](Text text) { natus.timing.size = read_size(text); }, "WIDTHxHEIGHT; default 1024x768");
     command.add_option_function<std::string>(
         "--voxels", [options = options.get()](Text text) { options->voxels = read_grids(text); },
         "natus: grids to measure, voxels an edge; default 256,128,64; cost: one grid; default 128");
-    command.add_option("--tests", options->tests,
-                       "natus: which of the tests, default 1,2,3,4,5 (the path tracer is compared with test 4); cie171: "
-                       "which of 5.2 to 5.14, default all");
+    command.add_option(
+        "--tests", options->tests,
+        "natus: which of the tests, default 1,2,3,4,5 (the path tracer is compared with test 4); cie171: "
+        "which of 5.2 to 5.14, default all; fly: which of simple, sunlight, sunlight_redrawn, sunlight_volumes, "
+        "default all");
     command
         .add_option("--target-error", options->cie.target_error,
                     "cie171: 95 % half-width over value at which a point is done; default 0.002")
@@ -141,6 +182,7 @@ Action declare_bench(CLI::App& command) {
     command.add_flag("--json", options->json, "Print JSON");
     return [options] {
         if (options->name == "cie171") return bench_cie171(*options);
+        if (options->name == "fly") return bench_fly(*options);
         return options->name == "cost" ? bench_cost(*options) : bench_natus(*options);
     };
 }

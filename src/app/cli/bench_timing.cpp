@@ -50,20 +50,22 @@ Result<FrameTimer> FrameTimer::create(const Scene& scene, const std::string& nam
     return FrameTimer(scene, *camera, options.frames, std::move(*renderer));
 }
 
-Result<FrameTime> FrameTimer::time(Size size, Picture* picture) {
+Result<FrameTime> FrameTimer::time(Size size, Picture* picture, bool keep_shadows) {
     RealtimeOptions options;
     options.width = size.width;
     options.height = size.height;
     options.samples = picture ? 1 : 0;
     options.gi = scene_->render_settings().gi;
     options.frames_timed = frames_;
+    options.keep_shadows = keep_shadows;
     RealtimeStatistics numbers;
     auto rendered = renderer_.render(*scene_, camera_, options, &numbers);
     if (interrupted()) return fail("", "interrupted");
     if (!rendered) return tl::unexpected(rendered.error());
     if (picture) *picture = std::move(*rendered);
     device_ = numbers.device;
-    return FrameTime{numbers.gpu_ms_mean, numbers.gpu_ms_total, steps_of(numbers.passes)};
+    const FrameSteps steps = steps_of(numbers.passes);
+    return FrameTime{numbers.gpu_ms_mean, numbers.gpu_ms_total, steps, std::move(numbers.passes)};
 }
 
 }  // namespace heliodon::cli

@@ -23,6 +23,7 @@ struct FrameSteps {
 struct FrameTime {
     double mean_ms = 0, median_ms = 0;
     FrameSteps steps;
+    std::vector<PassTime> passes;  ///< in the order of the frame
 };
 
 struct TimingOptions {
@@ -37,8 +38,9 @@ public:
     /// `scene` must outlive this; `name` is what errors call it.
     [[nodiscard]] static Result<FrameTimer> create(const Scene& scene, const std::string& name,
                                                    const TimingOptions& options);
-    /// By the scene's settings. Leaves one frame's picture in `picture`, where wanted.
-    [[nodiscard]] Result<FrameTime> time(Size size, Picture* picture = nullptr);
+    /// By the scene's settings. Leaves one frame's picture in `picture`, where wanted. `keep_shadows`: shadow maps are
+    /// drawn in the first frame alone, as in the live viewer while nothing moves.
+    [[nodiscard]] Result<FrameTime> time(Size size, Picture* picture = nullptr, bool keep_shadows = false);
 
     [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] const std::string& device() const { return device_; }  ///< once something was timed
