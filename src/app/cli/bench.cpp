@@ -6,6 +6,7 @@
 #include "app/cli/bench_cost.h"
 #include "app/cli/bench_fly.h"
 #include "app/cli/bench_natus.h"
+#include "app/cli/bench_shadow_volumes.h"
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
 
@@ -124,6 +125,15 @@ Result<void> bench_fly(const BenchOptions& options) {
     return print(options.json ? as_json(*report, fly) : as_text(*report, fly));
 }
 
+Result<void> bench_shadow_volumes(const BenchOptions& options) {
+    const std::vector<SceneArgument> scenes = scenes_of(options);
+    if (scenes.size() != 1) throw CLI::ValidationError("--scene", "expected one scene for shadow-volumes");
+    const ShadowVolumeOptions volumes{scenes.front(), options.natus.timing};
+    const auto report = run_shadow_volumes(volumes);
+    if (!report) return tl::unexpected(report.error());
+    return print(options.json ? as_json(*report, volumes) : as_text(*report, volumes));
+}
+
 Result<void> bench_cie171(const BenchOptions& options) {
     CieOptions cie = options.cie;
     if (!options.tests.empty()) cie.tests = read_cie_tests(options.tests);
@@ -142,17 +152,19 @@ Action declare_bench(CLI::App& command) {
         .add_option(
             "NAME", options->name,
             "natus: five pictures of voxel cone tracing; fly: frames a second by sun and sky; cost: a frame's time "
-            "as its work grows; cie171: the path tracer by the test cases of CIE 171:2006")
+            "as its work grows; cie171: the path tracer by the test cases of CIE 171:2006; shadow-volumes: those "
+            "behind lit "
+            "triangles against those behind all")
         ->required()
         ->check([](const std::string& name) {
             const bool known =
-                name == "natus" || name == "fly" || name == "cost" || name == "cie171";
-            return known ? "" : "expected natus, fly, cost or cie171, found \"" + name + "\"";
+                name == "natus" || name == "fly" || name == "cost" || name == "cie171" || name == "shadow-volumes";
+            return known ? "" : "expected natus, fly, cost, cie171 or shadow-volumes, found \"" + name + "\"";
         });
     command.add_option(
         "--scene", options->scenes,
         "Scene files instead of the built-in scenes. natus: one, test 5's is NAME-emissive beside it; fly: any "
-        "number");
+        "number; shadow-volumes: one");
     add_override_option(command, natus.scene);
     command.add_option_function<std::string>(
         "--size", [&natus](Text text) { natus.timing.size = read_size(text); }, "WIDTHxHEIGHT; default 1024x768");
@@ -183,6 +195,7 @@ Action declare_bench(CLI::App& command) {
     return [options] {
         if (options->name == "cie171") return bench_cie171(*options);
         if (options->name == "fly") return bench_fly(*options);
+        if (options->name == "shadow-volumes") return bench_shadow_volumes(*options);
         return options->name == "cost" ? bench_cost(*options) : bench_natus(*options);
     };
 }
