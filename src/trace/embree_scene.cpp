@@ -225,7 +225,7 @@ void EmbreeScene::commit(const convert::FlatScene& flat) {
         if (instances_[index].mask == translucent_mask) translucent += primitives(index);
     }
     if (translucent == 0) return;
-    constexpr std::size_t share = 8;
+    constexpr std::size_t share = 4;
     if (translucent > all / share) {  // a second tree would gain little and take too much memory
         rtcRetainScene(top_.get());
         translucent_.reset(top_.get());
