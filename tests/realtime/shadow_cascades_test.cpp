@@ -206,15 +206,18 @@ TEST_F(ShadowCascadesSeen, AShadowsEdgeGoesOnAcrossTheirBorders) {
 }
 
 TEST_F(ShadowCascadesSeen, ALivePenumbraIsAsWideAsTheSunsDiscMakesIt) {
+    Scene scene;
+    const MaterialId white = scene.add_material(lambert(glm::vec3(1)));
+    add_floor(scene, 10, white);
+    const NodeId sheet = add_shape_node(scene, Quad{{-9, 0, -9}, {0, 0, 18}, {9, 0, 0}}, white);
+    const NodeId sun = add_disc_sun(scene, {0, -1, 0}, glm::vec3(pi), 1);
+    set_cascades(scene, {}, 2048);
     for (const float diameter_deg : {0.53f, 2.0f, 5.0f})
         for (const float height : {1.0f, 2.0f, 4.0f}) {
-            renew();
-            Scene scene;
-            const MaterialId white = scene.add_material(lambert(glm::vec3(1)));
-            add_floor(scene, 10, white);
-            add_shape_node(scene, Quad{{-9, height, -9}, {0, 0, 18}, {9, 0, 0}}, white);
-            add_disc_sun(scene, {0, -1, 0}, glm::vec3(pi), diameter_deg);
-            set_cascades(scene, {}, 2048);
+            ASSERT_TRUE(scene.set_transform(sheet, Transform{.translation = {0, height, 0}}));
+            Light disc = *scene.nodes().find(sun)->light;
+            disc.angular_diameter_rad = glm::radians(diameter_deg);
+            ASSERT_TRUE(scene.set_light(sun, disc));
             const float expected = height * 2 * std::tan(glm::radians(0.5f * diameter_deg));
             // The profile's derivative is the disc's chords: their variance is a quarter of its radius squared.
             constexpr int size = 96;
@@ -227,10 +230,10 @@ TEST_F(ShadowCascadesSeen, ALivePenumbraIsAsWideAsTheSunsDiscMakesIt) {
                 const double at = (2.0 * (x + 1) / size - 1) * half;
                 mass += step, first += step * at, second += step * at * at;
             }
-            EXPECT_NEAR(mass, 1, 0.02) << diameter_deg << "° " << height << " m";
             const double width = 4 * std::sqrt(second / mass - first * first / (mass * mass));
-            EXPECT_NEAR(first / mass, 0, 0.05 * expected) << diameter_deg << "° " << height << " m";
-            EXPECT_NEAR(width, expected, 0.06 * expected) << diameter_deg << "° " << height << " m";
+            EXPECT_NEAR(mass, 1, 0.02) << diameter_deg << "° " << height << " m";
+            EXPECT_NEAR(first / mass, 0, 0.03 * expected) << diameter_deg << "° " << height << " m";
+            EXPECT_NEAR(width, expected, 0.02 * expected) << diameter_deg << "° " << height << " m";
         }
 }
 

@@ -85,13 +85,18 @@ uint shadow_tap(ShadowViewData view, ReceiverPlane plane, ivec2 texel, vec2 posi
     return at_receiver <= plane.own_depth + stored_bias + depth_rounding(view, plane) ? tap_lit : tap_blocked;
 }
 
+/// In metres along the light from the receiver to what is stored at the texel of a directional light's map.
+float blocker_distance(ShadowViewData view, ReceiverPlane plane, ivec2 texel, int size) {
+    return (stored_depth(view, texel, size) - plane.own_depth) * view.range_m;
+}
+
 // As shadow_filter_nearest, of a receiver that stands off every surface: what lies beyond it is not between it and the light.
 const uint shadow_filter_free = 2u;
 
 /// Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels, the nearest
 /// first, or that one alone. Texels that look past the edge of the receiver's surface have no say: through
-/// them light would leak along the seams of walls.
-float filtered_by_texels(ShadowViewData view, ReceiverPlane plane, vec2 position, int size, uint filter_mode) {
+/// them light would leak along the seams of walls. What stands `far_m` before the receiver or more is left out.
+float filtered_by_texels(ShadowViewData view, ReceiverPlane plane, vec2 position, int size, uint filter_mode, float far_m) {
     const bool nearest = filter_mode == shadow_filter_nearest || filter_mode == shadow_filter_free;
     const ivec2 texel = ivec2(floor(position));
     const vec2 offset = position - vec2(texel) - 0.5f;
@@ -105,7 +110,8 @@ float filtered_by_texels(ShadowViewData view, ReceiverPlane plane, vec2 position
         if (tap == tap_beyond && filter_mode != shadow_filter_free) continue;
         const float weight = nearest ? 1.0f : share.x * share.y;
         known += weight;
-        lit += tap == tap_blocked ? 0.0f : weight;
+        const bool blocked = tap == tap_blocked && (far_m <= 0.0f || blocker_distance(view, plane, texel + corner * side, size) < far_m);
+        lit += blocked ? 0.0f : weight;
         if (nearest) break;
     }
     return known > 0.0f ? lit / known : 1.0f;
@@ -114,8 +120,6 @@ float filtered_by_texels(ShadowViewData view, ReceiverPlane plane, vec2 position
 // Taps that look for what stands in the way, and that find its share of the light's disc.
 const int search_taps = 16;
 const int disc_taps = 32;
-// Within this many texels a map resolves folds by the planes of its triangles, beyond by the cone to the light's disc.
-const float shadow_plane_texels = 1.5f;
 
 /// Points evenly over the unit disc, from its middle outwards (Vogel 1979, "A better way to construct the sunflower head").
 vec2 disc_point(int index, int count) {
@@ -124,21 +128,34 @@ vec2 disc_point(int index, int count) {
     return sqrt((float(index) + 0.5f) / float(count)) * vec2(cos(angle), sin(angle));
 }
 
-bool in_map(ivec2 texel, int size) { return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(size))); }
+/// What a lookup about a receiver knows of the disc of a directional light.
+struct Penumbra {
+    vec2 texels_a_metre;  // across the light
+    float texel_m;
+    float far_m;  // from where on a penumbra is wider than texels
+    int size;
+};
 
-/// Mean distance, in metres along the light, of what stands before the receiver's plane within `radius` metres beside
-/// it; 0: nothing. `umbra`: all of it hides the disc.
-float blocker_distance(ShadowViewData view, ReceiverPlane plane, vec2 position, vec2 texels_a_metre, float radius, int size, out bool umbra) {
+/// What stands before the receiver `offset` metres beside it, in metres along the light: 0 where nothing does, or nothing so
+/// far off that the map shows its penumbra. Outside the cone to the disc it stands before the receiver's plane.
+float far_blocker(ShadowViewData view, ReceiverPlane plane, vec2 position, Penumbra penumbra, vec2 offset) {
+    const ivec2 texel = ivec2(floor(position + offset * penumbra.texels_a_metre));
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(penumbra.size)))) return 0.0f;
+    const float distance_m = blocker_distance(view, plane, texel, penumbra.size);
+    if (distance_m < penumbra.far_m) return 0.0f;
+    if (length(offset) <= distance_m * view.disc_tangent) return distance_m;
+    return plane_tap(view, plane, stored_depth(view, texel, penumbra.size), texel, penumbra.size) == tap_blocked ? distance_m : 0.0f;
+}
+
+/// The mean of what stands within `radius` metres beside the receiver; 0: nothing. `umbra`: all of it hides the disc.
+float mean_blocker(ShadowViewData view, ReceiverPlane plane, vec2 position, Penumbra penumbra, float radius, out bool umbra) {
     float sum = 0.0f;
     float blockers = 0.0f;
     int hiding = 0;
     [[dont_unroll]] for (int i = 0; i < search_taps; ++i) {
         const vec2 offset = disc_point(i, search_taps) * radius;
-        const ivec2 texel = ivec2(floor(position + offset * texels_a_metre));
-        if (!in_map(texel, size)) continue;
-        const float stored = stored_depth(view, texel, size);
-        const float distance_m = (stored - plane.own_depth) * view.range_m;
-        if (distance_m <= 0.0f || plane_tap(view, plane, stored, texel, size) != tap_blocked) continue;
+        const float distance_m = far_blocker(view, plane, position, penumbra, offset);
+        if (distance_m == 0.0f) continue;
         sum += distance_m;
         blockers += 1.0f;
         // A tap stands for a disc about it of its share of the area.
@@ -148,53 +165,51 @@ float blocker_distance(ShadowViewData view, ReceiverPlane plane, vec2 position, 
     return blockers > 0.0f ? sum / blockers : 0.0f;
 }
 
+/// Does a ray to the point `toward` of the light's unit disc pass what stands in the way? The map is looked at where the ray
+/// is as far off as the mean blocker; if something nearer stands there, which the ray passes farther in, there as well.
+bool ray_blocked(ShadowViewData view, ReceiverPlane plane, vec2 position, Penumbra penumbra, vec2 toward, float radius) {
+    float at = radius;
+    for (int i = 0; i < 2; ++i) {
+        const float distance_m = far_blocker(view, plane, position, penumbra, toward * at);
+        if (distance_m == 0.0f) return false;
+        const float own = distance_m * view.disc_tangent;
+        if ((at - own) * length(toward) <= 0.5f * penumbra.texel_m) return true;
+        at = own;
+    }
+    return false;
+}
+
 /// Share of the light's disc that the receiver sees: a penumbra as wide as the disc looks from what stands in the way
 /// (Fernando 2005, "Percentage-Closer Soft Shadows"; a disc at infinity makes it distance · 2 tan of its angular radius).
+/// What stands so near that its penumbra is no wider than texels is filtered by them.
 float contact_hardened(ShadowViewData view, ReceiverPlane plane, vec2 position, int size) {
-    const vec2 texels_a_metre = 0.5f * float(size) / vec2(length(view.axis_u), length(view.axis_v));
-    const float finest = max(texels_a_metre.x, texels_a_metre.y);
-    // The widest: from as near to the light as anything stands.
-    float radius = (1.0f - plane.own_depth) * view.range_m * view.disc_tangent;
-    bool umbra = false;
-    for (int search = 0; search < 2 && radius * finest > 1.0f; ++search) {
-        // Found in a wide disc, then in the one that it itself would be seen through.
-        bool all_hidden;
-        const float distance_m = blocker_distance(view, plane, position, texels_a_metre, radius, size, all_hidden);
-        umbra = umbra || all_hidden;
+    Penumbra penumbra;
+    penumbra.texels_a_metre = 0.5f * float(size) / vec2(length(view.axis_u), length(view.axis_v));
+    penumbra.texel_m = 1.0f / max(penumbra.texels_a_metre.x, penumbra.texels_a_metre.y);
+    penumbra.far_m = penumbra.texel_m / view.disc_tangent;
+    penumbra.size = size;
+    const float near = filtered_by_texels(view, plane, position, size, shadow_filter_percentage_closer, penumbra.far_m);
+    // As near to the light as anything stands; then as what is found there, and again in the disc that that is seen through.
+    float distance_m = (1.0f - plane.own_depth) * view.range_m;
+    for (int search = 0; search < 2; ++search) {
+        if (near == 0.0f || distance_m < penumbra.far_m) return near;
+        bool umbra;
+        const float found_m = mean_blocker(view, plane, position, penumbra, distance_m * view.disc_tangent, umbra);
         if (umbra) return 0.0f;
-        if (distance_m > 0.0f) radius = distance_m * view.disc_tangent;
-        else if (search == 0) radius = 0.0f;
+        if (found_m > 0.0f || search == 0) distance_m = found_m;
     }
-    if (radius * finest <= 1.0f) return filtered_by_texels(view, plane, position, size, shadow_filter_percentage_closer);
-    const float half_texel = 0.5f * sqrt(2.0f) / finest;
-    float lit = 0.0f;
-    float known = 0.0f;
-    [[dont_unroll]] for (int i = 0; i < disc_taps; ++i) {
-        const vec2 offset = disc_point(i, disc_taps) * radius;
-        const vec2 shift = offset * texels_a_metre;
-        const ivec2 texel = ivec2(floor(position + shift));
-        if (!in_map(texel, size)) continue;
-        uint tap;
-        if (dot(shift, shift) <= shadow_plane_texels * shadow_plane_texels) {
-            tap = shadow_tap(view, plane, texel, position, size);
-            if (tap == tap_beyond) continue;
-        } else {
-            const float stored = stored_depth(view, texel, size);
-            tap = plane_tap(view, plane, stored, texel, size);
-            // Folds and corners that rise towards the light stand beside the cone.
-            if ((stored - plane.own_depth) * view.range_m * view.disc_tangent < length(offset) - half_texel) tap = tap_lit;
-        }
-        known += 1.0f;
-        lit += tap == tap_blocked ? 0.0f : 1.0f;
-    }
-    return known > 0.0f ? lit / known : 1.0f;
+    if (distance_m == 0.0f) return near;
+    int lit = 0;
+    [[dont_unroll]] for (int i = 0; i < disc_taps; ++i)
+        if (!ray_blocked(view, plane, position, penumbra, disc_point(i, disc_taps), distance_m * view.disc_tangent)) ++lit;
+    return near * float(lit) / float(disc_taps);
 }
 
 float shadow_in_view(ShadowViewData view, ReceiverPlane plane, uint filter_mode) {
     const int size = int(view.size);
     const vec2 position = (plane.at * vec2(0.5f, -0.5f) + 0.5f) * float(size);
     if (filter_mode == shadow_filter_contact_hardening && view.disc_tangent > 0.0f) return contact_hardened(view, plane, position, size);
-    return filtered_by_texels(view, plane, position, size, filter_mode);
+    return filtered_by_texels(view, plane, position, size, filter_mode, 0.0f);
 }
 
 /// A point's share of the say of a view: all of it within, less over the border of a cascade, none outside.
