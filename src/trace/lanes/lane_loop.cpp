@@ -71,7 +71,7 @@ AddSamples lane_samples(const CpuKernel& shared_kernel, const EmbreeScene& scene
         const int blocks_a_batch = std::max(1, paths_a_batch / (pixels_a_block * (end - picture.done)));
         const int batches = (picture.blocks.count() + blocks_a_batch - 1) / blocks_a_batch;
         std::atomic<std::uint64_t> rays = 0, non_finite = 0;
-        tbb::parallel_for(0, batches, [&](int number) {
+        const auto follow = [&](int number) {
             Batch batch;
             const int first = number * blocks_a_batch;
             for (int block = first; block < std::min(first + blocks_a_batch, picture.blocks.count()); ++block)
@@ -80,7 +80,9 @@ AddSamples lane_samples(const CpuKernel& shared_kernel, const EmbreeScene& scene
             batch.add_to(picture);
             rays += counts.rays;
             non_finite += counts.non_finite;
-        });
+        };
+        // One batch a task: a pass ends with the last of them.
+        tbb::parallel_for(0, batches, 1, follow, tbb::simple_partitioner());
         return PathCounts{rays, non_finite};
     };
 }
