@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "graph/compile_steps.h"
 
@@ -189,10 +191,40 @@ private:
     std::vector<std::vector<PositionedUse>> uses_;
 };
 
+/// Where in the frame a barrier of the pass at `position` may stand at the earliest: after the last use of what it waits for.
+std::uint32_t earliest_position(const CompiledGraph& compiled, const Barrier& barrier, std::uint32_t position) {
+    const auto own = std::ranges::find(compiled.placements, barrier.resource, &Placement::resource);
+    const auto concerns = [&](const ResourceUse& use) {
+        if (use.resource == barrier.resource) return true;
+        if (!barrier.discard || own == compiled.placements.end()) return false;
+        const auto other = std::ranges::find(compiled.placements, use.resource, &Placement::resource);
+        return other != compiled.placements.end() && share_memory(*own, *other);
+    };
+    while (position > 0 && std::ranges::none_of(compiled.passes[compiled.order[position - 1].pass].uses, concerns)) --position;
+    return position;
+}
+
+/// Where all that a pass waits for may be waited for together with what an earlier pass does, the pass waits for nothing: it
+/// runs beside those between.
+void join_waits(CompiledGraph& compiled) {
+    std::uint32_t last = 0;  // that has barriers
+    for (std::uint32_t position = 1; position < compiled.order.size(); ++position) {
+        std::vector<Barrier>& barriers = compiled.order[position].barriers;
+        if (barriers.empty()) continue;
+        const bool early = std::ranges::all_of(
+            barriers, [&](const Barrier& barrier) { return earliest_position(compiled, barrier, position) <= last; });
+        if (early)
+            std::ranges::move(std::exchange(barriers, {}), std::back_inserter(compiled.order[last].barriers));
+        else
+            last = position;
+    }
+}
+
 }  // namespace
 
 void place_barriers(CompiledGraph& compiled) {
     BarrierPlacer(compiled).place();
+    join_waits(compiled);
 }
 
 }  // namespace heliodon::graph

@@ -179,7 +179,7 @@ void Executor::reset_history() {
     for (auto& [name, buffer] : frame_.persistent_buffers) buffer->clear = true;
 }
 
-Result<void> Executor::execute(gpu::Commands& commands, gpu::Timestamps* timestamps) {
+Result<void> Executor::begin(gpu::Commands& commands) {
     const CompiledGraph& compiled = frame_.compiled;
     for (const CompiledPass& pass : compiled.order)
         for (const ResourceUse& use : compiled.passes[pass.pass].uses)
@@ -188,19 +188,29 @@ Result<void> Executor::execute(gpu::Commands& commands, gpu::Timestamps* timesta
                             fmt::format("the imported '{}' is not bound", compiled.resources[use.resource].name()));
     clear_persistents(commands);
     poisoned_.assign(compiled.resources.size(), false);
-    PassContext context(commands, *this);
-    for (std::uint32_t position = 0; position < compiled.order.size(); ++position) {
-        const CompiledPass& compiled_pass = compiled.order[position];
-        const PassDeclaration& pass = compiled.passes[compiled_pass.pass];
-        commands.begin_label(pass.name);
-        if (settings_.poison) poison(commands, position);
-        record(commands, compiled_pass.barriers);
-        const std::uint32_t scope = timestamps ? timestamps->begin(commands, pass.name) : 0;
-        if (pass.execute) pass.execute(context);
-        if (timestamps) timestamps->end(commands, scope);
-        commands.end_label();
+    next_ = 0;
+    return {};
+}
+
+Result<void> Executor::execute(gpu::Commands& commands, gpu::Timestamps* timestamps, Executor* beside) {
+    if (auto begun = begin(commands); !begun) return begun;
+    finish(commands, timestamps, beside);
+    return {};
+}
+
+void Executor::finish(gpu::Commands& commands, gpu::Timestamps* timestamps, Executor* beside) {
+    const CompiledGraph& compiled = frame_.compiled;
+    while (next_ < compiled.order.size()) {
+        Wait wait;
+        add_next(commands, wait);
+        if (beside) beside->add_next(commands, wait);
+        wait.record(commands);
+        record_next(commands, timestamps);
+        if (beside) beside->record_next(commands, timestamps);
     }
-    record(commands, compiled.final_barriers);
+    Wait wait;
+    add(wait, compiled.final_barriers);
+    wait.record(commands);
     for (const FinalState& final_state : compiled.final_states) {
         const Slot& slot = frame_.slots[final_state.resource];
         if (slot.image)
@@ -209,12 +219,30 @@ Result<void> Executor::execute(gpu::Commands& commands, gpu::Timestamps* timesta
             slot.buffer->set_state(final_state.state);
     }
     swap_history();
-    return {};
 }
 
-void Executor::record(gpu::Commands& commands, const std::vector<Barrier>& barriers) {
-    image_barriers_.clear();
-    VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+void Executor::add_next(gpu::Commands& commands, Wait& wait) {
+    if (next_ == frame_.compiled.order.size()) return;
+    if (settings_.poison) poison(commands, next_);
+    add(wait, frame_.compiled.order[next_].barriers);
+}
+
+void Executor::record_next(gpu::Commands& commands, gpu::Timestamps* timestamps) {
+    const CompiledGraph& compiled = frame_.compiled;
+    if (next_ == compiled.order.size()) return;
+    PassContext context(commands, *this);
+    do {
+        const PassDeclaration& pass = compiled.passes[compiled.order[next_].pass];
+        commands.begin_label(pass.name);
+        const std::uint32_t scope = timestamps ? timestamps->begin(commands, pass.name) : 0;
+        if (pass.execute) pass.execute(context);
+        if (timestamps) timestamps->end(commands, scope);
+        commands.end_label();
+        ++next_;
+    } while (next_ < compiled.order.size() && compiled.order[next_].barriers.empty());
+}
+
+void Executor::add(Wait& wait, const std::vector<Barrier>& barriers) const {
     for (const Barrier& barrier : barriers) {
         const Slot& slot = frame_.slots[barrier.resource];
         gpu::Access before = barrier.before;
@@ -229,18 +257,21 @@ void Executor::record(gpu::Commands& commands, const std::vector<Barrier>& barri
                 before.access |= VK_ACCESS_2_MEMORY_WRITE_BIT;
         }
         if (slot.image) {
-            image_barriers_.push_back(image_barrier(*slot.image, barrier, before));
-            if (barrier.discard && !settings_.poison) image_barriers_.back().oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+            wait.images.push_back(image_barrier(*slot.image, barrier, before));
+            if (barrier.discard && !settings_.poison) wait.images.back().oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
         } else {
-            memory.srcStageMask |= before.stages;
-            memory.srcAccessMask |= before.access;
-            memory.dstStageMask |= barrier.after.stages;
-            memory.dstAccessMask |= barrier.after.access;
+            wait.memory.srcStageMask |= before.stages;
+            wait.memory.srcAccessMask |= before.access;
+            wait.memory.dstStageMask |= barrier.after.stages;
+            wait.memory.dstAccessMask |= barrier.after.access;
         }
     }
+}
+
+void Executor::Wait::record(gpu::Commands& commands) const {
     const bool any_memory = memory.dstStageMask != 0;
-    if (image_barriers_.empty() && !any_memory) return;
-    commands.barriers(image_barriers_, {&memory, any_memory ? 1u : 0u});
+    if (images.empty() && !any_memory) return;
+    commands.barriers(images, {&memory, any_memory ? 1u : 0u});
 }
 
 void Executor::clear_persistents(gpu::Commands& commands) {

@@ -49,7 +49,12 @@ public:
     void bind(ImageHandle handle, const gpu::Image& image);
     void bind(BufferHandle handle, const gpu::Buffer& buffer);
     /// Records one frame. Errors: an imported resource not bound; what passes report is kept by `commands`.
-    [[nodiscard]] Result<void> execute(gpu::Commands& commands, gpu::Timestamps* timestamps = nullptr);
+    /// `beside`: a graph that was begun and shares nothing with this one but what both only read. It goes on with each wait
+    /// of this one, so that both wait together and their passes run side by side.
+    [[nodiscard]] Result<void> execute(gpu::Commands& commands, gpu::Timestamps* timestamps = nullptr, Executor* beside = nullptr);
+    /// A frame that is recorded beside others: begin() it, hand it to their execute(), finish() what is left.
+    [[nodiscard]] Result<void> begin(gpu::Commands& commands);
+    void finish(gpu::Commands& commands, gpu::Timestamps* timestamps = nullptr) { finish(commands, timestamps, nullptr); }
 
     /// The real resource; exported, persistent and imported ones may be read after the frame. After execute() a
     /// history's `previous` is what this frame wrote as `current`.
@@ -88,14 +93,25 @@ private:
     [[nodiscard]] Result<void> make_persistents(Frame& frame) const;
     void clear_persistents(gpu::Commands& commands);
     void poison(gpu::Commands& commands, std::uint32_t position);
-    void record(gpu::Commands& commands, const std::vector<Barrier>& barriers);
+    /// What one vkCmdPipelineBarrier2 waits for.
+    struct Wait {
+        std::vector<VkImageMemoryBarrier2> images;
+        VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, 0, 0, 0, 0};
+        void record(gpu::Commands& commands) const;
+    };
+    void add(Wait& wait, const std::vector<Barrier>& barriers) const;
+    /// What the next passes wait for.
+    void add_next(gpu::Commands& commands, Wait& wait);
+    /// The next passes up to one that waits for more.
+    void record_next(gpu::Commands& commands, gpu::Timestamps* timestamps);
+    void finish(gpu::Commands& commands, gpu::Timestamps* timestamps, Executor* beside);
     void swap_history();
 
     gpu::Device& device_;
     ExecutorSettings settings_;
     Frame frame_;
-    std::vector<bool> poisoned_;                         // by resource, in this frame
-    std::vector<VkImageMemoryBarrier2> image_barriers_;  // kept to allocate nothing while recording
+    std::uint32_t next_ = 0;      // position of the pass to be recorded next
+    std::vector<bool> poisoned_;  // by resource, in this frame
 };
 
 }  // namespace heliodon::graph

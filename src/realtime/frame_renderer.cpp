@@ -9,12 +9,10 @@
 
 #include "gpu/bindless_textures.h"
 #include "heliodon_passes_shaders.h"
-#include "passes/accumulate/accumulate.h"
 #include "passes/blend/blend.h"
 #include "passes/cull/cull.h"
 #include "passes/light_grid/light_grid_shared.h"
 #include "passes/shadow_cones/shadow_cones.h"
-#include "passes/tonemap/tonemap.h"
 #include "passes/visibility/visibility.h"
 #include "realtime/area_light.h"
 #include "realtime/camera_frame.h"
@@ -26,8 +24,6 @@ namespace {
 // A map whose size no one stated is as large as the picture can tell, up to this.
 constexpr int largest_fitted_shadow_map = 2048;
 constexpr std::size_t frames_in_flight = 2;
-// Shadows of cones are no finer than voxels, but end at edges.
-constexpr std::uint32_t most_shadow_spacing = 2;  // pixels
 constexpr std::uint32_t fragments_per_pixel = 4;  // room for blended surfaces to begin with
 
 }  // namespace
@@ -39,6 +35,7 @@ FrameRenderer::FrameRenderer(gpu::Device& device, const std::string& shader_dire
       pipelines_(device, gpu::ShaderLibrary(passes::embedded_shaders(), shader_directory)),
       gpu_scene_(device),
       shadow_executor_(std::make_unique<graph::Executor>(device)),
+      surface_executor_(std::make_unique<graph::Executor>(device)),
       frame_executor_(std::make_unique<graph::Executor>(device)),
       voxels_(device, pipelines_) {}
 
@@ -149,6 +146,7 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
     wanted_.cone_spacing = sample.cone_traced ? 1u << static_cast<unsigned>(settings_.vct.resolution) : 1u;
     wanted_.volume = key_.volume;
     if (auto done = choose_rasterizer(); !done) return done;
+    wanted_.surfaces_ahead = wanted_.cone_traced && wanted_.computed_visibility && !wanted_.aov;
     if (!(wanted_ == key_)) {
         if (auto done = device_.wait_idle(); !done) return done;
         // After a failure some of it is of the old size and some of the new: the next frame makes all anew.
@@ -158,7 +156,7 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
         if (auto done = prepare_volume(camera); !done) return key_ = {}, done;
     if (wanted_ == key_) return {};
     if (auto done = device_.wait_idle(); !done) return done;
-    const Result<void> rebuilt = build_shadow_graph().and_then([&] { return build_frame_graph(); });
+    const Result<void> rebuilt = build_shadow_graph().and_then([&] { return build_surface_graph(); }).and_then([&] { return build_frame_graph(); });
     key_ = rebuilt ? wanted_ : decltype(key_){};
     return rebuilt;
 }
@@ -219,75 +217,9 @@ Result<void> FrameRenderer::make_images() {
     return {};
 }
 
-Result<void> FrameRenderer::build_shadow_graph() {
-    graph::Graph graph;
-    const passes::ShadowMaps maps{graph.import_image(shadow_depth_.description()), graph.import_image(shadow_slope_.description())};
-    if (auto done = add_shadow_maps(graph, maps); !done) return done;
-    graph.export_image(maps.depth);
-    graph.export_image(maps.slope);
-    if (auto done = shadow_executor_->set_graph(graph); !done) return done;
-    shadow_executor_->bind(maps.depth, shadow_depth_);
-    shadow_executor_->bind(maps.slope, shadow_slope_);
-    return {};
-}
-
-Result<void> FrameRenderer::build_frame_graph() {
-    const VkExtent2D extent{static_cast<std::uint32_t>(wanted_.width), static_cast<std::uint32_t>(wanted_.height)};
-    graph::Graph graph;
-    const passes::ShadowMaps maps{graph.import_image(shadow_depth_.description()), graph.import_image(shadow_slope_.description())};
-    const graph::ImageHandle sum = graph.import_image(sum_.description());
-    graph.export_image(sum);
-    const passes::VolumeImages volume{graph.import_image(voxels_.inputs().faces->description()),
-                                      graph.import_image(voxels_.inputs().depths->description()),
-                                      graph.import_buffer(voxels_.inputs().occupancy->description())};
-    passes::DrawLists lists;
-    auto visibility = add_visibility(graph, extent, lists);
-    if (!visibility) return tl::unexpected(visibility.error());
-    auto shaded = passes::add_shade(graph, pipelines_, inputs_, lighting_, *visibility, maps, volume, extent,
-                                    {wanted_.aov, wanted_.cone_traced, std::min(wanted_.cone_spacing, most_shadow_spacing)});
-    if (!shaded) return tl::unexpected(shaded.error());
-    const graph::ImageHandle picture = shaded->picture;
-    if (wanted_.cone_traced) {
-        if (auto done = passes::add_cone_trace(graph, pipelines_, inputs_, lighting_, voxels_.inputs(), volume, *shaded,
-                                               extent, {wanted_.aov, wanted_.cone_spacing}); !done)
-            return done;
-    }
-    graph::BufferHandle fragments;
-    if (wanted_.blended && !wanted_.aov) {
-        fragments = graph.import_buffer(fragments_.description());
-        if (auto done = passes::add_blend(graph, pipelines_, inputs_, lighting_, camera_view_, lists, *visibility, maps, volume,
-                                          fragments, picture, extent, wanted_.cone_traced); !done)
-            return done;
-    }
-    if (auto done = passes::add_accumulate(graph, pipelines_, picture, sum, replace_sum_, extent); !done) return done;
-    graph::ImageHandle display;
-    if (wanted_.display) {
-        display = graph.import_image(display_.description());
-        graph.export_image(display);
-        auto exposure = passes::add_meter(graph, pipelines_, sum, exposure_, wanted_.metered, extent);
-        if (!exposure) return tl::unexpected(exposure.error());
-        if (auto done = passes::add_tonemap(graph, pipelines_, sum, *exposure, display, tonemap_, extent); !done) return done;
-    }
-    if (auto done = frame_executor_->set_graph(graph); !done) return done;
-    frame_executor_->bind(maps.depth, shadow_depth_);
-    frame_executor_->bind(maps.slope, shadow_slope_);
-    frame_executor_->bind(sum, sum_);
-    frame_executor_->bind(volume.faces, *voxels_.inputs().faces);
-    frame_executor_->bind(volume.depths, *voxels_.inputs().depths);
-    frame_executor_->bind(volume.occupancy, *voxels_.inputs().occupancy);
-    if (fragments) frame_executor_->bind(fragments, fragments_);
-    if (display) frame_executor_->bind(display, display_);
-    return {};
-}
-
 Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample& sample, std::size_t batch, PassTimes* times) {
     auto commands = device_.begin_commands("frame");
     if (!commands) return tl::unexpected(commands.error());
-    timestamps_.begin_frame(sample.timed_whole ? gpu::Timestamps::Detail::whole : gpu::Timestamps::Detail::scopes);
-    if (sample.cone_traced && plan_.batches.size() == 1)
-        if (auto done = record_volume(*commands, sample, batch); !done) return done;
-    if (auto done = record_shadows(*commands, sample, batch, &timestamps_); !done) return done;
-
     shading::FrameData frame = camera_frame(camera, gpu_scene_.bounds(), wanted_.width, wanted_.height, sample.jitter);
     frame.sample_index = sample.index;
     frame.texture_gradient_scale = sample.texture_gradient_scale;
@@ -307,6 +239,13 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
     if (auto done = device_.upload(frame_buffer_, std::span<const shading::FrameData>(&frame, 1)); !done) return done;
     if (auto done = device_.upload(camera_view_, std::span<const shading::ViewData>(&view, 1)); !done) return done;
     if (auto done = place_raster_camera(frame.world_to_clip); !done) return done;
+    timestamps_.begin_frame(sample.timed_whole ? gpu::Timestamps::Detail::whole : gpu::Timestamps::Detail::scopes);
+    if (key_.surfaces_ahead)
+        if (auto begun = surface_executor_->begin(*commands); !begun) return begun;
+    if (sample.cone_traced && plan_.batches.size() == 1)
+        if (auto done = record_volume(*commands, sample, batch); !done) return done;
+    if (auto done = record_shadows(*commands, sample, batch, &timestamps_); !done) return done;
+    if (key_.surfaces_ahead) surface_executor_->finish(*commands, &timestamps_);
     replace_sum_ = sample.replace && batch == 0;
     // Batches of lights add up to one picture: it adapts once.
     set_display(camera, {sample.display.sample_scale, batch + 1 == plan_.batches.size() ? sample.display.seconds : 0});

@@ -13,6 +13,7 @@
 #include "gpu/timestamps.h"
 #include "graph/executor.h"
 #include "passes/compute_raster/compute_raster.h"
+#include "passes/cone_trace/cone_trace.h"
 #include "passes/meter/meter.h"
 #include "passes/sensors/sensors.h"
 #include "passes/shade/shade.h"
@@ -53,6 +54,12 @@ struct FrameSample {
 struct PassTimes {
     std::vector<PassTime> passes;
     double total_ms = 0;
+};
+
+/// What of a picture is found ahead of light: handles in the graph that finds it, or in one that reads it.
+struct SurfacesAhead {
+    passes::Surfaces surfaces;
+    passes::ConeWeights weights;
 };
 
 /// Renders samples of a picture on one device: owns the GPU scene, the shadow maps, the frame graphs and the
@@ -118,6 +125,7 @@ private:
         passes::SceneFeatures features;
         bool aov = false, cone_traced = false, cone_shadows = false, shadows_traced = false;
         std::uint32_t cone_spacing = 1;  // pixels
+        bool surfaces_ahead = false;  // what the camera sees is found beside voxelization
         bool computed_visibility = false, computed_shadows = false, tests_opacity = false;  // rasterized by compute
         std::uint32_t instance_capacity = 0, shadow_layers = 0, shadow_views = 0;
         int shadow_size = 0;
@@ -196,6 +204,8 @@ private:
     /// `lists`: what was culled, by the hardware's rasterizer alone.
     [[nodiscard]] Result<passes::Visibility> add_visibility(graph::Graph& graph, VkExtent2D extent, passes::DrawLists& lists);
     [[nodiscard]] Result<void> build_shadow_graph();
+    /// What is seen and what cones need to know of it: light has no part in it.
+    [[nodiscard]] Result<void> build_surface_graph();
     [[nodiscard]] Result<void> build_frame_graph();
     [[nodiscard]] Result<void> record_shadows(gpu::Commands& commands, const FrameSample& sample, std::size_t batch,
                                               gpu::Timestamps* timestamps);
@@ -205,7 +215,8 @@ private:
     gpu::Device& device_;
     gpu::Pipelines pipelines_;
     GpuScene gpu_scene_;
-    std::unique_ptr<graph::Executor> shadow_executor_, frame_executor_;
+    std::unique_ptr<graph::Executor> shadow_executor_, surface_executor_, frame_executor_;
+    SurfacesAhead ahead_;  // in surface_executor_
     gpu::Timestamps timestamps_;
 
     VoxelVolume voxels_;

@@ -311,7 +311,8 @@ Result<void> VoxelVolume::upload_data(shading::VolumeData data) {
     return device_.upload(data_buffer_, std::span<const shading::VolumeData>(&all, 1));
 }
 
-Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, bool keep_light) {
+Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, bool keep_light,
+                                          graph::Executor* beside) {
     if (settings_.anew) forget_surfaces();
     // What is shown must be what gathered last, of voxels that are still of the same size.
     keeps_light_ = keep_light && !outdated_ && shown_.lattice == data_.lattice && shown_.voxel_m == data_.voxel_m;
@@ -326,11 +327,12 @@ Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestam
     if (auto done = steps_->keep_shown.execute(commands, timestamps); !done) return done;
     outdated_ = true;
     for (std::size_t cascade = 0; cascade < cascades_.size(); ++cascade)
-        if (auto done = record_surfaces(commands, timestamps, cascade); !done) return done;
+        if (auto done = record_surfaces(commands, timestamps, cascade, beside); !done) return done;
     return {};
 }
 
-Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, std::size_t index) {
+Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, std::size_t index,
+                                          graph::Executor* beside) {
     Cascade& cascade = *cascades_[index];
     SurfaceSteps& steps = *steps_->surfaces[index];
     shading::VoxelGrid& grid = cascade.constants.grid;
@@ -344,14 +346,14 @@ Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestam
         return steps.keep.execute(commands, timestamps);
     };
     if (!cascade.known || glm::any(glm::greaterThanEqual(glm::abs(shift), glm::ivec3(settings_.voxels)))) {
-        if (auto done = steps.all.execute(commands, timestamps); !done) return done;
+        if (auto done = steps.all.execute(commands, timestamps, beside); !done) return done;
         cascade.known = cascade.in_place = true;
         cascade.kept = false;
         ++work_.all;
     } else if (shift != glm::ivec3(0)) {
         if (auto done = keep(); !done) return done;
         cascade.entered.shift = shift;
-        if (auto done = steps.enter.execute(commands, timestamps); !done) return done;
+        if (auto done = steps.enter.execute(commands, timestamps, beside); !done) return done;
         cascade.in_place = true;
         cascade.kept = false;
         ++work_.entered;
@@ -359,7 +361,7 @@ Result<void> VoxelVolume::record_surfaces(gpu::Commands& commands, gpu::Timestam
     cascade.base = grid.base;
     if (!moving_.empty() || !cascade.in_place) {
         if (auto done = keep(); !done) return done;
-        if (auto done = steps.move.execute(commands, timestamps); !done) return done;
+        if (auto done = steps.move.execute(commands, timestamps, beside); !done) return done;
         cascade.in_place = moving_.empty();
         ++work_.moving;
     } else if (work_.all == all_before && work_.entered == entered_before) {

@@ -38,8 +38,9 @@ public:
     [[nodiscard]] Result<void> prepare(const Source& source, const VoxelSettings& settings, glm::vec3 eye);
     /// Brings the voxelized surfaces up to date: what never moved is voxelized once, and where a cascade moved, only the
     /// voxels that entered it. The texture shows those before until the next emission or bounce.
-    /// `keep_light`: faces that were there before keep the light that they gathered.
-    [[nodiscard]] Result<void> record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, bool keep_light);
+    /// `keep_light`: faces that were there before keep the light that they gathered. `beside`: Executor::execute().
+    [[nodiscard]] Result<void> record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, bool keep_light,
+                                               graph::Executor* beside = nullptr);
     /// Lights voxels with one batch of lights; `add`: to what those before gave.
     [[nodiscard]] Result<void> record_lights(gpu::Commands& commands, gpu::Timestamps* timestamps, std::uint32_t light_first,
                                              std::uint32_t light_count, bool add);
@@ -126,7 +127,7 @@ private:
     [[nodiscard]] Result<void> show(graph::Executor& step, gpu::Commands& commands, gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> place(const GpuScene& scene, glm::vec3 eye);
     [[nodiscard]] Result<void> list_triangles(const GpuScene& scene);
-    [[nodiscard]] Result<void> record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, std::size_t cascade);
+    [[nodiscard]] Result<void> record_surfaces(gpu::Commands& commands, gpu::Timestamps* timestamps, std::size_t cascade, graph::Executor* beside);
     void forget_surfaces();
     [[nodiscard]] Result<void> build_lit_bounce(const Source& source, const std::function<Result<void>(VolumeGraph&, bool)>& add_volume);
     [[nodiscard]] VolumeGraph begin_graph(const Source& source) const;

@@ -165,13 +165,15 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
     if (auto done = finish(steps_->lights, lights); !done) return done;
 
     const auto add_volume = [&](VolumeGraph& volume, bool emission_only) -> Result<void> {
+        const auto occupied = passes::add_occupied(volume.graph, pipelines_, volume.cascades, volume.images);
+        if (!occupied) return tl::unexpected(occupied.error());
         for (std::size_t i = 0; i <= last; ++i)
             if (auto done = passes::add_volume_clear(volume.graph, pipelines_, volume.cascades[i], volume.images, i == last); !done)
                 return done;
         for (const auto& cascade : volume.cascades)
             if (auto done = passes::add_radiance(volume.graph, pipelines_, cascade, volume.images, emission_only); !done) return done;
-        if (auto done = passes::add_filter(volume.graph, pipelines_, volume.cascades[last], volume.images); !done) return done;
-        return passes::add_occupancy(volume.graph, pipelines_, volume.cascades, volume.images);
+        if (auto done = passes::add_filter(volume.graph, pipelines_, volume.cascades[last], volume.images, occupied->work); !done) return done;
+        return passes::add_emptiness(volume.graph, pipelines_, volume.cascades, volume.images, occupied->faces);
     };
     VolumeGraph emission = begin();
     if (auto done = add_volume(emission, true); !done) return done;

@@ -42,36 +42,56 @@ struct ComputeRaster {
     void declare(PassBuilder& pass) const {
         pass.read_write(keys, Usage::storage_read_write);
         pass.read_write(strips, Usage::storage_read_write);
-        pass.write(large_triangles, Usage::storage_write);
     }
-    /// Draws all batches; `outputs`: what the resolving shader writes.
-    void record(PassContext& context, const std::vector<NumberedBinding>& outputs) const;
+    using Outputs = std::vector<NumberedBinding>;  ///< what the resolving shader writes
+    // The three steps of a batch, in order.
+    void record_triangles(PassContext& context, const RasterBatch& batch) const;
+    void record_strips(PassContext& context, const RasterBatch& batch) const;
+    void record_resolve(PassContext& context, const RasterBatch& batch, const Outputs& outputs) const;
+    /// All of them of all batches.
+    void record(PassContext& context, const Outputs& outputs) const;
+
+private:
+    [[nodiscard]] ComputeRasterConstants constants(const RasterBatch& batch) const {
+        return {inputs.range_count,    inputs.triangle_count, batch.view_first,      batch.view_count,
+                batch.tile_count,      inputs.strip_capacity, inputs.large_capacity, inputs.random_seed};
+    }
+    [[nodiscard]] std::vector<gpu::Binding> bindings(const PassContext& context, const gpu::Pipeline& pipeline,
+                                                     const Outputs& outputs = {}) const {
+        std::vector<NumberedBinding> own{{8, *inputs.views},
+                                         {12, *inputs.triangle_ranges},
+                                         {13, context.buffer(keys)},
+                                         {14, context.buffer(strips)},
+                                         {17, context.buffer(large_triangles)}};
+        own.insert(own.end(), outputs.begin(), outputs.end());
+        return select_bindings(pipeline, scene, own);
+    }
 };
 
-void ComputeRaster::record(PassContext& context, const std::vector<NumberedBinding>& outputs) const {
-    gpu::Commands& commands = context.commands;
-    std::vector<NumberedBinding> own{{8, *inputs.views},
-                                     {12, *inputs.triangle_ranges},
-                                     {13, context.buffer(keys)},
-                                     {14, context.buffer(strips)},
-                                     {17, context.buffer(large_triangles)}};
-    own.insert(own.end(), outputs.begin(), outputs.end());
-    for (std::size_t i = 0; i < inputs.batches.size(); ++i) {
-        const RasterBatch& batch = inputs.batches[i];
-        const ComputeRasterConstants push{inputs.range_count,    inputs.triangle_count, batch.view_first,
-                                          batch.view_count,      batch.tile_count,      inputs.strip_capacity,
-                                          inputs.large_capacity, inputs.random_seed};
-        if (i > 0) commands.compute_barrier();
-        if (inputs.triangle_count > 0) {
-            const std::uint32_t view_groups = groups_of(batch.view_count, shading::raster_views_a_thread);
-            commands.dispatch(*triangles, push, select_bindings(*triangles, scene, own),
+void ComputeRaster::record_triangles(PassContext& context, const RasterBatch& batch) const {
+    if (inputs.triangle_count == 0) return;
+    const std::uint32_t view_groups = groups_of(batch.view_count, shading::raster_views_a_thread);
+    context.commands.dispatch(*triangles, constants(batch), bindings(context, *triangles),
                               spread(groups_of(inputs.triangle_count, threads_a_group), view_groups));
-            commands.compute_barrier();
-            commands.dispatch(*strip_rows, push, select_bindings(*strip_rows, scene, own),
-                              {shading::raster_strip_groups, 1, 1});
-            commands.compute_barrier();
-        }
-        commands.dispatch(*resolve, push, select_bindings(*resolve, scene, own), spread(batch.tile_count));
+}
+
+void ComputeRaster::record_strips(PassContext& context, const RasterBatch& batch) const {
+    if (inputs.triangle_count == 0) return;
+    context.commands.dispatch(*strip_rows, constants(batch), bindings(context, *strip_rows), {shading::raster_strip_groups, 1, 1});
+}
+
+void ComputeRaster::record_resolve(PassContext& context, const RasterBatch& batch, const Outputs& outputs) const {
+    context.commands.dispatch(*resolve, constants(batch), bindings(context, *resolve, outputs), spread(batch.tile_count));
+}
+
+void ComputeRaster::record(PassContext& context, const Outputs& outputs) const {
+    for (const RasterBatch& batch : inputs.batches) {
+        if (&batch != inputs.batches.data()) context.commands.compute_barrier();
+        record_triangles(context, batch);
+        context.commands.compute_barrier();
+        record_strips(context, batch);
+        context.commands.compute_barrier();
+        record_resolve(context, batch, outputs);
     }
 }
 
@@ -153,15 +173,31 @@ Result<Visibility> add_visibility_by_compute(graph::Graph& graph, gpu::Pipelines
     const VkExtent3D size{extent.width, extent.height, 1};
     result.ids = graph.create_image({.name = "visibility", .format = VK_FORMAT_R32G32_UINT, .extent = size});
     result.depth = graph.create_image({.name = "depth", .format = computed_depth_format, .extent = size});
+    // A view is a batch. Its steps are passes of their own: others can go beside each.
     graph.add_pass(
         "visibility", graph::PassKind::compute,
         [&](PassBuilder& pass) {
             raster->declare(pass);
+            pass.write(raster->large_triangles, Usage::storage_write);
+        },
+        [self = *raster](PassContext& context) { self.record_triangles(context, self.inputs.batches.front()); });
+    graph.add_pass(
+        "visibility strips", graph::PassKind::compute,
+        [&](PassBuilder& pass) {
+            raster->declare(pass);
+            pass.read(raster->large_triangles, Usage::storage_read);
+        },
+        [self = *raster](PassContext& context) { self.record_strips(context, self.inputs.batches.front()); });
+    graph.add_pass(
+        "visibility resolve", graph::PassKind::compute,
+        [&](PassBuilder& pass) {
+            raster->declare(pass);
+            pass.read(raster->large_triangles, Usage::storage_read);
             pass.write(result.ids, Usage::storage_write);
             pass.write(result.depth, Usage::storage_write);
         },
         [self = *raster, result](PassContext& context) {
-            self.record(context, {{15, context.image(result.ids)}, {16, context.image(result.depth)}});
+            self.record_resolve(context, self.inputs.batches.front(), {{15, context.image(result.ids)}, {16, context.image(result.depth)}});
         });
     return result;
 }
@@ -175,6 +211,7 @@ Result<void> add_shadow_by_compute(graph::Graph& graph, gpu::Pipelines& pipeline
         "shadow", graph::PassKind::compute,
         [&](PassBuilder& pass) {
             raster->declare(pass);
+            pass.write(raster->large_triangles, Usage::storage_write);
             // Maps that are not drawn now stay.
             pass.read_write(maps.depth, Usage::storage_read_write);
             pass.read_write(maps.slope, Usage::storage_read_write);

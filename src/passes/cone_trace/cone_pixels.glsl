@@ -2,8 +2,8 @@
 #ifndef HELIODON_CONE_PIXELS_GLSL
 #define HELIODON_CONE_PIXELS_GLSL
 #include "passes/common/frame_shared.h"
-#include "passes/cone_trace/cone_light.glsl"
 #include "passes/cone_trace/cone_surface.glsl"
+#include "passes/cone_trace/volume_data.glsl"
 #include "shading/lobe_cone.h"
 
 layout(set = 0, binding = 8, std140) uniform Frame_ { FrameData frame; };

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Adds to the picture what the traced pixels about each one tell of its indirect light, and what it is seen through.
+#include "passes/cone_trace/cone_light.glsl"
 #include "passes/cone_trace/cone_pixels.glsl"
 #include "passes/cone_trace/traced_pixels.glsl"
 

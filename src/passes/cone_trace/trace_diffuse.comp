@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Traces the diffuse cones of pixels unlike those about them: an invocation traces one of each set, so that none waits for
 // nine in turn.
+#include "passes/cone_trace/cone_light.glsl"
 #include "passes/cone_trace/cone_pixels.glsl"
 #include "passes/cone_trace/listed_pixels.glsl"
 

@@ -3,6 +3,7 @@
 // Traces the diffuse cones and the specular one of one pixel in `spacing`²: 32 pixels by a workgroup in rows of 32
 // invocations, each with the same cones of its pixels, so that a subgroup's cones go about the same way through about
 // the same voxels. Few pixels need more rows to fill a device; many are faster with fewer, which wait less for each other.
+#include "passes/cone_trace/cone_light.glsl"
 #include "passes/cone_trace/cone_pixels.glsl"
 #include "passes/cone_trace/traced_pixels.glsl"
 

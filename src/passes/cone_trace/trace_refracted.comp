@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What is seen through transmissive surfaces: an invocation a cone.
+#include "passes/cone_trace/cone_light.glsl"
 #include "passes/cone_trace/cone_pixels.glsl"
 #include "passes/cone_trace/listed_pixels.glsl"
 #include "passes/cone_trace/refracted.glsl"

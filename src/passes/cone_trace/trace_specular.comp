@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Traces the specular cones of pixels unlike those about them, and those of clear coats.
+#include "passes/cone_trace/cone_light.glsl"
 #include "passes/cone_trace/cone_pixels.glsl"
 #include "passes/cone_trace/listed_pixels.glsl"
 

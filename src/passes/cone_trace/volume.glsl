@@ -5,13 +5,12 @@
 // met exactly once, at whatever angle and whatever levels the cone goes through: nothing leaks, nothing counts twice.
 #ifndef HELIODON_VOLUME_GLSL
 #define HELIODON_VOLUME_GLSL
-#include "passes/cone_trace/volume_shared.h"
+#include "passes/cone_trace/volume_data.glsl"
 #include "passes/occupancy/occupancy_shared.h"
 
 layout(set = 0, binding = 20) uniform sampler3D voxel_faces_texture;
 layout(set = 0, binding = 22) uniform sampler3D voxel_depths_texture;
 layout(constant_id = 6) const bool nested = true;  // there is more than one cascade
-layout(set = 0, binding = 21, std140) uniform Volume_ { VolumeData volume; };
 layout(set = 0, binding = 23, std430) readonly buffer Occupancy { uint emptiness[]; };
 
 /// World to the lattice of the finest voxels.

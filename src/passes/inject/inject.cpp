@@ -188,8 +188,8 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
             pass.read(cascade.surfaces.records, Usage::storage_read);
             pass.read(shadow_maps.depth, Usage::sampled);
             pass.read(shadow_maps.slope, Usage::sampled);
-            if (shares) pass.read(shares, Usage::storage_read);
-            read_volume(pass, images);
+            if (shares) pass.read(shares, Usage::storage_read);  // of the volume's shadows, which it then need not find
+            else read_volume(pass, images);
             pass.read_write(cascade.illuminance, Usage::storage_read_write);
         },
         [&scene, &lighting, cascade, shadow_maps, shares, direct = *pipeline](PassContext& context) {
@@ -276,7 +276,8 @@ Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const 
     return {};
 }
 
-Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade, const VolumeImages& images) {
+Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade, const VolumeImages& images,
+                        const FinestWork& beside) {
     auto pipeline = pipelines.compute("passes/inject/filter.comp", {{0, cascade.isotropic ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
     graph.add_pass(
@@ -286,10 +287,12 @@ Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const In
             pass.read(cascade.surfaces.levels, Usage::indirect);
             pass.read_write(images.faces, Usage::storage_read_write);
             pass.read_write(images.depths, Usage::storage_read_write);
+            beside.uses(pass);
         },
-        [cascade, images, filter = *pipeline](PassContext& context) {
+        [cascade, images, beside = beside.record, filter = *pipeline](PassContext& context) {
             const gpu::Buffer& lists = context.buffer(cascade.surfaces.levels);
             const gpu::Image &faces = context.image(images.faces), &depths = context.image(images.depths);
+            beside(context);
             for (std::uint32_t level = 1; level < level_count(cascade.surfaces.size); ++level) {
                 if (level > 1) context.commands.compute_barrier();
                 context.commands.dispatch_indirect(*filter, level_constants(cascade, level),

@@ -60,8 +60,13 @@ struct VoxelShadows;  // passes/shadow_cones
 /// Writes level 0: emission, and unless `emission_only` what both illuminances reflect.
 [[nodiscard]] Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
                                         const VolumeImages& images, bool emission_only);
+/// Work on level 0 of the texture, to go beside the filtering of level 1.
+struct FinestWork {
+    std::function<void(graph::PassBuilder&)> uses;
+    std::function<void(graph::PassContext&)> record;
+};
 /// Writes the coarse levels of a cascade from its level 0.
 [[nodiscard]] Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
-                                      const VolumeImages& images);
+                                      const VolumeImages& images, const FinestWork& beside);
 
 }  // namespace heliodon::passes

@@ -1,21 +1,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Resolves the visibility buffer and lights it; leaves what cones need to know of the surfaces.
+// Resolves the visibility buffer and lights it; may leave what cones need to know of the surfaces.
 #include "passes/common/lighting.glsl"
 #include "passes/common/visible_lights.glsl"
-#include "passes/cone_trace/cone_surface.glsl"
+#include "passes/shade/left_surface.glsl"
 #include "passes/shadow_cones/pixel_shadows.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 // Pictures of something else than radiance have a pipeline of their own, so that the common one stays small.
 layout(constant_id = 0) const bool draws_aov = false;
-layout(constant_id = 2) const bool cones_follow = false;
+layout(constant_id = 2) const bool leaves_surfaces = false;
 layout(set = 0, binding = 8, std140) uniform Frame_ { FrameData frame; };
 layout(set = 0, binding = 12) uniform usampler2D visibility;
 layout(set = 0, binding = 13, rgba32f) uniform writeonly image2D contribution;
-layout(set = 0, binding = 14, rgba32ui) uniform writeonly uimage2D surface_places;
-layout(set = 0, binding = 17, rgba32ui) uniform writeonly uimage2D surface_albedos;
-layout(set = 0, binding = 18, r32ui) uniform writeonly uimage2D surface_lobes;
 
 vec4 background(vec3 direction) {
     if (draws_aov || frame.batch != 0u) return vec4(0.0f);
@@ -23,13 +20,6 @@ vec4 background(vec3 direction) {
     vec3 seen = lights_seen(frame.position, unit, beyond_every_light);
     if (has_sky && frame.sky_enabled != 0u) seen += sky_seen(unit);
     return vec4(seen, 0.0f);
-}
-
-void leave_surface(ivec2 pixel, ConeSurface surface) {
-    const PackedSurface packed_surface = pack_surface(surface);
-    imageStore(surface_places, pixel, packed_surface.place);
-    imageStore(surface_albedos, pixel, packed_surface.albedos);
-    imageStore(surface_lobes, pixel, uvec4(packed_surface.lobes));
 }
 
 vec3 value_of(SurfacePoint point, vec3 wo, BsdfLobes lobes, uint pixel_seed) {
@@ -52,19 +42,13 @@ void main() {
     vec4 value;
     if (visible.x == 0u) {
         value = background(direction);
-        if (cones_follow) imageStore(surface_places, ivec2(pixel), uvec4(0u));  // no depth: nothing
+        if (leaves_surfaces) leave_nothing(ivec2(pixel));
     } else {
         const uint seed = pcg_hash(pixel.x + pcg_hash(pixel.y + pcg_hash(frame.random_seed)));
         const SurfacePoint point = resolve_surface(visible.x - 1u, visible.y, frame, direction);
         const vec3 wo = to_local(point.frame, point.wo);
         const BsdfLobes lobes = bsdf_prepare(point.material.surface, wo);
-        if (cones_follow) {
-            // Nothing is seen of the back of a one-sided surface.
-            const uint effects = point.dark || wo.z <= 0.0f ? 0u : volume.effects;
-            const float depth_m = dot(point.position - frame.position, frame.forward);
-            leave_surface(ivec2(pixel), ConeSurface(depth_m, point.geometric, point.frame.normal, lobes.alpha, lobes.coat_alpha,
-                                                    cone_lobes(point.material.surface, lobes, effects)));
-        }
+        if (leaves_surfaces) leave_surface(ivec2(pixel), point, wo, lobes, frame);
         if (shadows_traced) traced_shares = pixel_shares(ivec2(pixel), point.position, point.geometric, frame);
         value = vec4(value_of(point, wo, lobes, seed), 1.0f);
         if (!draws_aov && frame.batch == 0u)

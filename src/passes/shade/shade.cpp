@@ -1,48 +1,80 @@
 #include "passes/shade/shade.h"
 
-#include "passes/shadow_cones/shadow_cones.h"
-
 namespace heliodon::passes {
+namespace {
 
-Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                         const LightingInputs& lighting, const Visibility& visibility, const ShadowMaps& shadow_maps,
-                         const VolumeImages& volume, VkExtent2D extent, const ShadeOptions& options) {
+graph::ImageHandle image(graph::Graph& graph, const char* name, VkFormat format, VkExtent2D size) {
+    return graph.create_image({.name = name, .format = format, .extent = {size.width, size.height, 1}});
+}
+
+}  // namespace
+
+Surfaces create_surfaces(graph::Graph& graph, const Visibility& visibility, VkExtent2D extent) {
+    return {.places = image(graph, "surface places", VK_FORMAT_R32G32B32A32_UINT, extent),
+            .albedos = image(graph, "surface albedos", VK_FORMAT_R32G32B32A32_UINT, extent),
+            .lobes = image(graph, "surface lobes", VK_FORMAT_R32_UINT, extent),
+            .ids = visibility.ids};
+}
+
+Result<void> add_surfaces(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                          const LightingInputs& lighting, const Surfaces& surfaces, VkExtent2D extent) {
+    gpu::Specialization constants;
+    set_material_constants(constants, scene);
+    auto pipeline = pipelines.compute("passes/shade/surfaces.comp", constants);
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    graph.add_pass(
+        "surfaces", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(surfaces.ids, graph::Usage::sampled);
+            for (const graph::ImageHandle written : {surfaces.places, surfaces.albedos, surfaces.lobes})
+                pass.write(written, graph::Usage::storage_write);
+        },
+        [&scene, &lighting, surfaces, extent, leave = *pipeline](graph::PassContext& context) {
+            const auto bindings = select_bindings(*leave, scene,
+                                                  {{8, *lighting.frame},
+                                                   {11, *lighting.shading_tables},
+                                                   {12, gpu::Binding(context.image(surfaces.ids), lighting.nearest)},
+                                                   {14, context.image(surfaces.places)},
+                                                   {17, context.image(surfaces.albedos)},
+                                                   {18, context.image(surfaces.lobes)},
+                                                   {21, *lighting.volume->data}});
+            context.commands.dispatch_threads(*leave, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
+        });
+    return {};
+}
+
+graph::ImageHandle create_picture(graph::Graph& graph, VkExtent2D extent) {
+    return image(graph, "radiance", VK_FORMAT_R32G32B32A32_SFLOAT, extent);
+}
+
+Result<void> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                       const LightingInputs& lighting, graph::ImageHandle ids, const ShadowMaps& shadow_maps,
+                       const VolumeImages& volume, graph::ImageHandle picture, VkExtent2D extent, const ShadeOptions& options) {
     gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
-    graph::ImageHandle traced_shadows;
-    if (lighting.shadows_traced && !options.aov) {
-        auto traced = add_pixel_shadows(graph, pipelines, scene, lighting, visibility, volume, extent, options.shadow_spacing);
-        if (!traced) return tl::unexpected(traced.error());
-        traced_shadows = *traced;
+    const graph::ImageHandle traced_shadows = options.traced_shadows;
+    if (traced_shadows) {
         constants[1] = options.shadow_spacing;
         constants[17] = 1;
     }
     constants[0] = options.aov ? 1 : 0;
-    constants[2] = options.cones_follow ? 1 : 0;
+    constants[2] = options.leaves ? 1 : 0;
     set_material_constants(constants, scene);
     set_light_constants(constants, scene);
     auto pipeline = pipelines.compute("passes/shade/shade.comp", constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
-    const auto image = [&](const char* name, VkFormat format, VkExtent2D size) {
-        return graph.create_image({.name = name, .format = format, .extent = {size.width, size.height, 1}});
-    };
-    const VkExtent2D left = options.cones_follow ? extent : VkExtent2D{1, 1};
-    const Shaded shaded{.picture = image("radiance", VK_FORMAT_R32G32B32A32_SFLOAT, extent),
-                        .places = image("surface places", VK_FORMAT_R32G32B32A32_UINT, left),
-                        .albedos = image("surface albedos", VK_FORMAT_R32G32B32A32_UINT, left),
-                        .lobes = image("surface lobes", VK_FORMAT_R32_UINT, left),
-                        .ids = visibility.ids};
+    const Surfaces left = options.leaves ? *options.leaves : create_surfaces(graph, {ids, {}}, {1, 1});  // nothing writes those
     graph.add_pass(
         "shade", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
-            pass.read(visibility.ids, graph::Usage::sampled);
+            pass.read(ids, graph::Usage::sampled);
             if (traced_shadows) pass.read(traced_shadows, graph::Usage::sampled);
             pass.read(shadow_maps.depth, graph::Usage::sampled);
             pass.read(shadow_maps.slope, graph::Usage::sampled);
             read_volume(pass, volume);
-            for (const graph::ImageHandle written : {shaded.picture, shaded.places, shaded.albedos, shaded.lobes})
+            for (const graph::ImageHandle written : {picture, left.places, left.albedos, left.lobes})
                 pass.write(written, graph::Usage::storage_write);
         },
-        [&scene, &lighting, visibility, shadow_maps, traced_shadows, shaded, extent, shade = *pipeline](graph::PassContext& context) {
+        [&scene, &lighting, ids, shadow_maps, traced_shadows, left, picture, extent, shade = *pipeline](graph::PassContext& context) {
             const auto bindings = select_bindings(*shade, scene,
                                                   {{8, *lighting.frame},
                                                    {9, *lighting.shadow_views},
@@ -55,15 +87,15 @@ Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const S
                                                    {21, *lighting.volume->data},
                                                    {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
                                                    {23, *lighting.volume->occupancy},
-                                                   {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
-                                                   {19, gpu::Binding(context.image(traced_shadows ? traced_shadows : visibility.ids), lighting.nearest)},
-                                                   {13, context.image(shaded.picture)},
-                                                   {14, context.image(shaded.places)},
-                                                   {17, context.image(shaded.albedos)},
-                                                   {18, context.image(shaded.lobes)}});
+                                                   {12, gpu::Binding(context.image(ids), lighting.nearest)},
+                                                   {19, gpu::Binding(context.image(traced_shadows ? traced_shadows : ids), lighting.nearest)},
+                                                   {13, context.image(picture)},
+                                                   {14, context.image(left.places)},
+                                                   {17, context.image(left.albedos)},
+                                                   {18, context.image(left.lobes)}});
             context.commands.dispatch_threads(*shade, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
         });
-    return shaded;
+    return {};
 }
 
 }  // namespace heliodon::passes

@@ -20,20 +20,29 @@ struct LightingInputs {
     const gpu::Buffer* light_grid = nullptr;      ///< light_grid.h: for picking among very many lights
 };
 
-struct Shaded {
-    graph::ImageHandle picture;                 ///< RGBA32F radiance in cd/m², alpha = coverage
-    graph::ImageHandle places, albedos, lobes;  ///< of its surfaces (cone_trace/cone_surface.glsl), where cones follow
-    graph::ImageHandle ids;                     ///< of the visibility buffer
+/// What cones need to know of the surfaces that a picture shows (cone_trace/cone_surface.glsl).
+struct Surfaces {
+    graph::ImageHandle places, albedos, lobes;
+    graph::ImageHandle ids;  ///< of the visibility buffer
 };
+/// Images for them.
+[[nodiscard]] Surfaces create_surfaces(graph::Graph& graph, const Visibility& visibility, VkExtent2D extent);
+/// Leaves them ahead of light, where add_shade() shall not.
+[[nodiscard]] Result<void> add_surfaces(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                        const LightingInputs& lighting, const Surfaces& surfaces, VkExtent2D extent);
+
 struct ShadeOptions {
-    bool aov = false;           ///< what FrameData::aov asks for instead of radiance
-    bool cones_follow = false;  ///< surfaces are left for add_cone_trace()
-    std::uint32_t shadow_spacing = 1;  ///< pixels between those that trace shadow cones for their neighbours
+    bool aov = false;  ///< what FrameData::aov asks for instead of radiance
+    const Surfaces* leaves = nullptr;  ///< what cones need to know of the surfaces, if it is to be left
+    graph::ImageHandle traced_shadows{};   ///< of add_pixel_shadows(), if they are traced ahead …
+    std::uint32_t shadow_spacing = 1;      ///< … by one pixel in so many squared
 };
-/// Lights the visibility buffer in compute: the batch's lights with their shadows, emission, sky.
-[[nodiscard]] Result<Shaded> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                       const LightingInputs& lighting, const Visibility& visibility,
-                                       const ShadowMaps& shadow_maps, const VolumeImages& volume, VkExtent2D extent,
-                                       const ShadeOptions& options);
+/// RGBA32F radiance in cd/m², alpha = coverage.
+[[nodiscard]] graph::ImageHandle create_picture(graph::Graph& graph, VkExtent2D extent);
+/// Lights the visibility buffer (its `ids`) in compute: the batch's lights with their shadows, emission, sky.
+[[nodiscard]] Result<void> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                                     const LightingInputs& lighting, graph::ImageHandle ids, const ShadowMaps& shadow_maps,
+                                     const VolumeImages& volume, graph::ImageHandle picture, VkExtent2D extent,
+                                     const ShadeOptions& options);
 
 }  // namespace heliodon::passes

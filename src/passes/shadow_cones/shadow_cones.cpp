@@ -7,7 +7,7 @@ namespace heliodon::passes {
 using graph::Usage;
 
 Result<graph::ImageHandle> add_pixel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                             const LightingInputs& lighting, const Visibility& visibility,
+                                             const LightingInputs& lighting, graph::ImageHandle ids,
                                              const VolumeImages& volume, VkExtent2D extent, std::uint32_t spacing) {
     gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
     constants[1] = spacing;
@@ -21,14 +21,14 @@ Result<graph::ImageHandle> add_pixel_shadows(graph::Graph& graph, gpu::Pipelines
     graph.add_pass(
         "trace shadows", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
-            pass.read(visibility.ids, Usage::sampled);
+            pass.read(ids, Usage::sampled);
             read_volume(pass, volume);
             pass.write(traced, Usage::storage_write);
         },
-        [&scene, &lighting, visibility, traced, cells, shadows = *pipeline](graph::PassContext& context) {
+        [&scene, &lighting, ids, traced, cells, shadows = *pipeline](graph::PassContext& context) {
             const auto bindings = select_bindings(*shadows, scene,
                                                   {{8, *lighting.frame},
-                                                   {12, gpu::Binding(context.image(visibility.ids), lighting.nearest)},
+                                                   {12, gpu::Binding(context.image(ids), lighting.nearest)},
                                                    {13, context.image(traced)},
                                                    {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
                                                    {21, *lighting.volume->data},

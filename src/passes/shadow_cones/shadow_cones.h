@@ -10,9 +10,9 @@ namespace heliodon::passes {
 /// The most lights of a batch whose shadow cones are traced ahead (light_visibility.glsl).
 inline constexpr std::uint32_t most_lights_traced = 4;
 
-/// RGBA32UI, of one pixel in `spacing`²: its depth and geometric normal, and what of each light reaches it.
+/// RGBA32UI, of one pixel in `spacing`² (`ids`: of the visibility buffer): its depth and geometric normal, and what of each light reaches it.
 [[nodiscard]] Result<graph::ImageHandle> add_pixel_shadows(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                                           const LightingInputs& lighting, const Visibility& visibility,
+                                                           const LightingInputs& lighting, graph::ImageHandle ids,
                                                            const VolumeImages& volume, VkExtent2D extent, std::uint32_t spacing);
 /// The cones of voxels, to be traced by a pass of their own or within another beside its work, while they wait for the volume.
 struct VoxelShadows {
