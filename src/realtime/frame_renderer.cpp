@@ -37,7 +37,8 @@ FrameRenderer::FrameRenderer(gpu::Device& device, const std::string& shader_dire
       shadow_executor_(std::make_unique<graph::Executor>(device)),
       surface_executor_(std::make_unique<graph::Executor>(device)),
       frame_executor_(std::make_unique<graph::Executor>(device)),
-      voxels_(device, pipelines_) {}
+      voxels_(device, pipelines_),
+      volumes_(device, pipelines_) {}
 
 FrameRenderer::~FrameRenderer() {
     // Nothing is left to report an error to; what failed has been reported by the call that submitted it.
@@ -84,6 +85,7 @@ Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
     if (cone_shadows != cone_shadows_) planned_lights_ = ~0ull;
     cone_shadows_ = cone_shadows;
     if (scene.render_settings().shadow_cascades.count != settings_.shadow_cascades.count) planned_lights_ = ~0ull;
+    if (scene.render_settings().sun_shadows != settings_.sun_shadows) planned_lights_ = ~0ull;
     settings_ = scene.render_settings();
     const int stated = settings_.shadow_map_size;
     shadow_maps_fit_picture_ = stated == 0;
@@ -144,6 +146,7 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
     lighting_.shadows_traced = wanted_.shadows_traced;
     wanted_.cone_traced = sample.cone_traced;
     wanted_.cone_spacing = sample.cone_traced ? 1u << static_cast<unsigned>(settings_.vct.resolution) : 1u;
+    if (auto done = prepare_volumes(sample); !done) return done;
     wanted_.volume = key_.volume;
     if (auto done = choose_rasterizer(); !done) return done;
     wanted_.surfaces_ahead = wanted_.cone_traced && wanted_.computed_visibility && !wanted_.aov;
@@ -235,6 +238,7 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
     frame.shadow_filter = sample.jitter_shadows ? shading::shadow_filter_nearest : shading::shadow_filter_contact_hardening;
     frame.fragment_capacity = wanted_.fragment_capacity;
     frame.random_seed = sample.index * 9781u + sample.seed;
+    place_volumes(frame, batch);
     const shading::ViewData view{frame.world_to_clip};
     if (auto done = device_.upload(frame_buffer_, std::span<const shading::FrameData>(&frame, 1)); !done) return done;
     if (auto done = device_.upload(camera_view_, std::span<const shading::ViewData>(&view, 1)); !done) return done;

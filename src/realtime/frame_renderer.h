@@ -22,6 +22,7 @@
 #include "realtime/gpu_scene.h"
 #include "realtime/renderer.h"
 #include "realtime/shadow_plan.h"
+#include "realtime/shadow_volumes.h"
 #include "realtime/voxel_volume.h"
 
 namespace heliodon::realtime {
@@ -38,6 +39,7 @@ struct FrameSample {
     bool environment = true;
     bool measures = false;           ///< light at points, not a picture: shadow maps as fine as they get
     bool cone_traced = false;        ///< indirect light and the sky by cones through the voxel volume
+    VolumesBehind volumes_behind = VolumesBehind::fewest;
     std::uint32_t aov = shading::frame_aov_none;
     std::uint32_t seed = 0;
     bool replace = true;             ///< the accumulated sum starts anew
@@ -105,6 +107,8 @@ public:
     [[nodiscard]] const gpu::Image& display() const { return display_; }
     [[nodiscard]] const GpuScene& scene() const { return gpu_scene_; }
     [[nodiscard]] const VoxelVolume& voxels() const { return voxels_; }
+    /// Of the last picture; nothing where no light casts any.
+    [[nodiscard]] const ShadowVolumeStatistics* shadow_volumes() const { return key_.volumes ? &volumes_.statistics() : nullptr; }
     /// The scene's render block as of the last update.
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
     [[nodiscard]] gpu::Device& device() const { return device_; }
@@ -126,6 +130,8 @@ private:
         bool aov = false, cone_traced = false, cone_shadows = false, shadows_traced = false;
         std::uint32_t cone_spacing = 1;  // pixels
         bool surfaces_ahead = false;  // what the camera sees is found beside voxelization
+        bool volumes = false;           // a directional light casts its shadows by them
+        bool maps_after_volumes = false;  // and by maps, where surfaces cast no volume
         bool computed_visibility = false, computed_shadows = false, tests_opacity = false;  // rasterized by compute
         std::uint32_t instance_capacity = 0, shadow_layers = 0, shadow_views = 0;
         int shadow_size = 0;
@@ -156,6 +162,13 @@ private:
     [[nodiscard]] Result<void> open();
     [[nodiscard]] Result<void> plan_lights();
     [[nodiscard]] ShadowPlan plan_shadow_maps() const;
+    /// The brightest directional light, if volumes are wanted; or no_light.
+    [[nodiscard]] std::uint32_t choose_volume_light() const;
+    [[nodiscard]] Result<void> prepare_volumes(const FrameSample& sample);
+    /// What the frame's sample needs to know of them.
+    void place_volumes(shading::FrameData& frame, std::size_t batch);
+    /// `lists`: what the camera sees, if it has been culled.
+    [[nodiscard]] Result<graph::ImageHandle> add_shadow_volumes(graph::Graph& graph, VkExtent2D extent, passes::DrawLists lists);
     void use_shadow_plan(ShadowPlan plan);
     /// Without a size in the scene's settings shadow maps are as fine as the picture can tell.
     void fit_shadow_maps(const Camera& camera, const FrameSample& sample);
@@ -220,6 +233,8 @@ private:
     gpu::Timestamps timestamps_;
 
     VoxelVolume voxels_;
+    ShadowVolumes volumes_;
+    std::uint32_t volume_light_ = shading::no_light;  // in the light table
     RenderSettings settings_;
     VolumeKey volume_key_;
     bool voxelize_ = false, relight_ = false;  // due in this frame

@@ -95,6 +95,12 @@ Result<void> FrameRenderer::build_frame_graph() {
         if (!traced) return tl::unexpected(traced.error());
         options.traced_shadows = *traced;
     }
+    if (wanted_.volumes && !wanted_.aov) {
+        auto shadowed = add_shadow_volumes(graph, extent, lists);
+        if (!shadowed) return tl::unexpected(shadowed.error());
+        options.shadowed = *shadowed;
+        options.maps_follow = wanted_.maps_after_volumes;
+    }
     const auto add_shade = [&] {
         return passes::add_shade(graph, pipelines_, inputs_, lighting_, visibility.ids, maps, volume, picture, extent, options);
     };

@@ -41,6 +41,7 @@ Result<void> FrameRenderer::plan_lights() {
     if (cascades_.count != settings_.shadow_cascades.count) cascades_ = {.count = settings_.shadow_cascades.count};
     const auto flat_lights = gpu_scene_.flat().lights();
     lights_.assign(flat_lights.begin(), flat_lights.end());
+    volume_light_ = choose_volume_light();
     has_cone_shadows_ = false;
     for (shading::LightData& light : lights_)
         if (cone_shadows_ && light.type != shading::light_type_none && light.radius > 0) {
@@ -49,6 +50,9 @@ Result<void> FrameRenderer::plan_lights() {
             light.cone_radius = radius;
             has_cone_shadows_ = true;
         }
+    // Volumes have the sharp edges of a light without extent.
+    if (volume_light_ != shading::no_light && lights_[volume_light_].radius > 0)
+        lights_[volume_light_] = center_of_area_light(lights_[volume_light_]);
     ShadowPlan plan = plan_shadow_maps();
     // Maps that are rendered in turns stay where they are while the lights are the same ones.
     if (!refreshes_in_turns() || planned_size_ != shadow_map_size_ || !same_views(plan, plan_)) use_shadow_plan(std::move(plan));

@@ -113,6 +113,7 @@ FrameSample still_sample(const RealtimeOptions& options, int index, int count) {
     sample.jitter_shadows = count > 1;
     sample.shadow_index = static_cast<std::uint32_t>(index * std::min(count, shadow_grids) / count);
     sample.environment = options.environment;
+    sample.volumes_behind = options.volumes_behind;
     sample.seed = options.seed;
     sample.replace = index == 0;
     sample.texture_gradient_scale = 1.0f / std::sqrt(static_cast<float>(count));
@@ -273,6 +274,7 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
         statistics->gpu_memory_bytes = state_->device->memory_bytes();
         statistics->vertex_bytes = frames.scene().vertex_bytes();
         statistics->draw_calls = static_cast<int>(frames.draw_calls());
+        if (const ShadowVolumeStatistics* volumes = frames.shadow_volumes()) statistics->shadow_volumes = *volumes;
         statistics->light_batches = static_cast<int>(frames.light_batches());
     }
     for (const AovKind& kind : aovs) {

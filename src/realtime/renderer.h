@@ -9,6 +9,7 @@
 #include "core/image.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "realtime/shadow_volume_statistics.h"
 #include "scene/scene.h"
 #include "scene/sensor_reading.h"
 
@@ -39,6 +40,7 @@ struct RealtimeOptions {
     std::uint32_t seed = 0;
     std::string gi = "none";    ///< or vct: voxel cone tracing, as the scene's render block has it
     bool environment = true;    ///< false: the sky gives no light and is black
+    VolumesBehind volumes_behind = VolumesBehind::fewest;  ///< of render.sun_shadows volumes: to compare
     int frames_timed = 0;       ///< > 0: time this many frames after warm-up
     bool keep_shadows = false;  ///< timed frames draw their shadow maps once, not anew each
     /// albedo normal depth position direct indirect: depth is the distance along the view axis in metres; depth
@@ -58,6 +60,7 @@ struct RealtimeStatistics {
     std::uint64_t gpu_memory_bytes = 0;
     std::uint64_t vertex_bytes = 0;  ///< of them, attributes of vertices (convert.vertex_precision)
     int draw_calls = 0;      ///< indirect draws of one frame, whatever the number of nodes
+    std::optional<ShadowVolumeStatistics> shadow_volumes;  ///< render.sun_shadows
     int light_batches = 0;   ///< lights whose shadow maps do not fit together are lit in several batches
 };
 

@@ -58,9 +58,11 @@ struct FrameData {
     uint fragment_capacity;
     uint random_seed;
     uint cone_traced;  // 1: indirect light and the sky come from cones through the voxel volume
-    uint padding;
+    uint volume_light;  // of the batch: what it reaches is known by pixel (passes/shadow_volumes); or no_light
     vec2 cone_shift;   // of diffuse_cone()
 };
+
+SHADING_CONST uint no_light = 0xffffffffu;
 
 SHADING_CONST uint frame_aov_none = 0u;
 SHADING_CONST uint frame_aov_albedo = 1u;

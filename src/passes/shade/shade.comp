@@ -12,6 +12,7 @@ layout(constant_id = 0) const bool draws_aov = false;
 layout(constant_id = 2) const bool leaves_surfaces = false;
 layout(set = 0, binding = 8, std140) uniform Frame_ { FrameData frame; };
 layout(set = 0, binding = 12) uniform usampler2D visibility;
+layout(set = 0, binding = 29) uniform usampler2D shadowed;  // of passes/shadow_volumes
 layout(set = 0, binding = 13, rgba32f) uniform writeonly image2D contribution;
 
 vec4 background(vec3 direction) {
@@ -49,6 +50,10 @@ void main() {
         const vec3 wo = to_local(point.frame, point.wo);
         const BsdfLobes lobes = bsdf_prepare(point.material.surface, wo);
         if (leaves_surfaces) leave_surface(ivec2(pixel), point, wo, lobes, frame);
+        if (volumes_cast) {
+            volume_light = frame.volume_light;
+            volume_share = texelFetch(shadowed, ivec2(pixel), 0).r == 0u ? 1.0f : 0.0f;
+        }
         if (shadows_traced) traced_shares = pixel_shares(ivec2(pixel), point.position, point.geometric, frame);
         value = vec4(value_of(point, wo, lobes, seed), 1.0f);
         if (!draws_aov && frame.batch == 0u)

@@ -56,6 +56,9 @@ Result<void> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const Sce
         constants[1] = options.shadow_spacing;
         constants[17] = 1;
     }
+    const graph::ImageHandle shadowed = options.shadowed;
+    if (shadowed) constants[20] = 1;
+    constants[21] = options.maps_follow ? 1 : 0;
     constants[0] = options.aov ? 1 : 0;
     constants[2] = options.leaves ? 1 : 0;
     set_material_constants(constants, scene);
@@ -68,13 +71,14 @@ Result<void> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const Sce
         [&](graph::PassBuilder& pass) {
             pass.read(ids, graph::Usage::sampled);
             if (traced_shadows) pass.read(traced_shadows, graph::Usage::sampled);
+            if (shadowed) pass.read(shadowed, graph::Usage::sampled);
             pass.read(shadow_maps.depth, graph::Usage::sampled);
             pass.read(shadow_maps.slope, graph::Usage::sampled);
             read_volume(pass, volume);
             for (const graph::ImageHandle written : {picture, left.places, left.albedos, left.lobes})
                 pass.write(written, graph::Usage::storage_write);
         },
-        [&scene, &lighting, ids, shadow_maps, traced_shadows, left, picture, extent, shade = *pipeline](graph::PassContext& context) {
+        [&scene, &lighting, ids, shadow_maps, traced_shadows, shadowed, left, picture, extent, shade = *pipeline](graph::PassContext& context) {
             const auto bindings = select_bindings(*shade, scene,
                                                   {{8, *lighting.frame},
                                                    {9, *lighting.shadow_views},
@@ -89,6 +93,7 @@ Result<void> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const Sce
                                                    {23, *lighting.volume->occupancy},
                                                    {12, gpu::Binding(context.image(ids), lighting.nearest)},
                                                    {19, gpu::Binding(context.image(traced_shadows ? traced_shadows : ids), lighting.nearest)},
+                                                   {29, gpu::Binding(context.image(shadowed ? shadowed : ids), lighting.nearest)},
                                                    {13, context.image(picture)},
                                                    {14, context.image(left.places)},
                                                    {17, context.image(left.albedos)},

@@ -36,6 +36,8 @@ struct ShadeOptions {
     const Surfaces* leaves = nullptr;  ///< what cones need to know of the surfaces, if it is to be left
     graph::ImageHandle traced_shadows{};   ///< of add_pixel_shadows(), if they are traced ahead …
     std::uint32_t shadow_spacing = 1;      ///< … by one pixel in so many squared
+    graph::ImageHandle shadowed{};         ///< of add_shadow_volumes(), if FrameData::volume_light casts them …
+    bool maps_follow = false;              ///< … and what casts none is in its shadow map
 };
 /// RGBA32F radiance in cd/m², alpha = coverage.
 [[nodiscard]] graph::ImageHandle create_picture(graph::Graph& graph, VkExtent2D extent);
