@@ -13,7 +13,8 @@ enum class VolumesBehind : std::uint8_t { lit, fewest, all };
 struct ShadowVolumeStatistics {
     std::uint32_t triangles = 0;  ///< of all surfaces that cast volumes
     std::uint32_t caps = 0;       ///< those with a volume
-    std::uint32_t sides = 0;      ///< of their silhouettes, each edge as often as it bounds
+    std::uint32_t edges = 0;      ///< silhouettes
+    std::uint32_t sides = 0;      ///< each edge as often as it bounds
     std::uint32_t parts = 0;      ///< of the map of lit triangles that were drawn
     std::vector<std::uint32_t> found_by_round;  ///< significant triangles that its parts of each size showed first
     std::uint32_t builds = 0;     ///< so often they were made

@@ -260,7 +260,7 @@ Result<void> ShadowVolumes::list_volumes() {
         constexpr std::uint64_t side_bytes = 3 * sizeof(std::uint32_t), cap_bytes = sizeof(glm::uvec2);
         if (auto done = sides_.reserve(device_, side_count * side_bytes, 0); !done) return done;
         if (auto done = caps_.reserve(device_, 2 * cap_count * cap_bytes, 0); !done) return done;
-        const std::vector<shading::VolumeDraw> none(shading::volume_draws, {0, 1, 0, 0});
+        const std::vector<shading::VolumeDraw> none(shading::volume_edges + 1, {0, 1, 0, 0});
         if (auto done = upload(device_, draws_, none); !done) return done;
         const passes::VolumeLists lists{&sides_.buffer(), &caps_.buffer(), &draws_.buffer(), &tallies_.buffer(),
                                         static_cast<std::uint32_t>(sides_.size() / side_bytes),
@@ -275,14 +275,15 @@ Result<void> ShadowVolumes::list_volumes() {
                                                choices[static_cast<std::size_t>(key_.behind)]);
         });
         if (!done) return done;
-        auto counted = device_.read_back(draws_.buffer(), 0, sizeof(shading::VolumeDraw) * shading::volume_draws);
+        auto counted = device_.read_back(draws_.buffer(), 0, sizeof(shading::VolumeDraw) * none.size());
         if (!counted) return tl::unexpected(counted.error());
-        std::array<shading::VolumeDraw, shading::volume_draws> draws;
+        std::array<shading::VolumeDraw, shading::volume_edges + 1> draws;
         std::memcpy(draws.data(), counted->data(), sizeof(draws));
         side_count = draws[shading::volume_draw_sides].vertex_count / 3;
         const std::uint32_t toward = draws[shading::volume_draw_toward].vertex_count / 3;
         const std::uint32_t away = draws[shading::volume_draw_away].vertex_count / 3;
         cap_count = std::max(toward, away);
+        statistics_.edges = draws[shading::volume_edges].vertex_count;
         statistics_.sides = side_count;
         statistics_.caps = toward + away;
         if (side_count <= lists.side_capacity && cap_count <= lists.cap_capacity) return {};

@@ -61,11 +61,11 @@ Result<ShadowVolumeReport> run_shadow_volumes(const ShadowVolumeOptions& options
 std::string as_text(const ShadowVolumeReport& report, const ShadowVolumeOptions& options) {
     const Size size = options.timing.size;
     std::string text = fmt::format("{}, {}×{}, {}\n", report.scene, size.width, size.height, report.device);
-    text += fmt::format("{} triangles of opaque surfaces\n{:<24}{:>10}{:>10}{:>14}{:>14}{:>14}{:>14}\n",
-                        report.rows[0].volumes.triangles, "volumes behind", "triangles", "sides", "stencil (ms)", "depth (ms)",
+    text += fmt::format("{} triangles of opaque surfaces\n{:<24}{:>10}{:>10}{:>10}{:>14}{:>14}{:>14}{:>14}\n",
+                        report.rows[0].volumes.triangles, "volumes behind", "triangles", "edges", "sides", "stencil (ms)", "depth (ms)",
                         "rebuilt (ms)", "other pixels");
     for (const ShadowVolumeReport::Row& row : report.rows)
-        text += fmt::format("{:<24}{:>10}{:>10}{:>14.3f}{:>14.3f}{:>14.1f}{:>14}\n", row.behind, row.volumes.caps, row.volumes.sides,
+        text += fmt::format("{:<24}{:>10}{:>10}{:>10}{:>14.3f}{:>14.3f}{:>14.1f}{:>14}\n", row.behind, row.volumes.caps, row.volumes.edges, row.volumes.sides,
                             row.stencil_ms, row.depth_ms, row.volumes.build_ms, row.different_pixels);
     text += fmt::format("lit triangles: {} parts of their map; newly found by round:", report.rows[0].volumes.parts);
     for (const std::uint32_t found : report.rows[0].volumes.found_by_round) text += fmt::format(" {}", found);
@@ -79,6 +79,7 @@ std::string as_json(const ShadowVolumeReport& report, const ShadowVolumeOptions&
         json["volumes"].push_back({{"behind", row.behind},
                                    {"opaque_triangles", row.volumes.triangles},
                                    {"triangles", row.volumes.caps},
+                                   {"edges", row.volumes.edges},
                                    {"sides", row.volumes.sides},
                                    {"stencil_ms", row.stencil_ms},
                                    {"depth_ms", row.depth_ms},

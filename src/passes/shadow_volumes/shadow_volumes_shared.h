@@ -91,6 +91,7 @@ SHADING_CONST uint volume_draw_sides = 0u;   // silhouettes
 SHADING_CONST uint volume_draw_toward = 1u;  // caps, by how their corners go round
 SHADING_CONST uint volume_draw_away = 2u;
 SHADING_CONST uint volume_draws = 3u;
+SHADING_CONST uint volume_edges = 3u;  // drawn by nobody: counts the edges that sides start from
 
 struct VolumeConstants {
     mat4 world_to_clip;  // of the picture's sample, without far plane

@@ -22,6 +22,7 @@ void main() {
     // The side goes along the edge the other way than the cap does.
     const uvec2 ends = sum > 0 ? uvec2(edge.b, edge.a) : uvec2(edge.a, edge.b);
     const uint count = uint(abs(sum));
+    atomicAdd(draws[volume_edges].vertex_count, 1u);
     const uint first = atomicAdd(draws[volume_draw_sides].vertex_count, 3u * count) / 3u;
     for (uint i = first; i < min(first + count, push.capacity); ++i) {
         sides[3u * i] = range.instance;
