@@ -137,10 +137,10 @@ struct Penumbra {
 };
 
 /// What stands before the receiver `offset` metres beside it, in metres along the light: 0 where nothing does, or nothing so
-/// far off that the map shows its penumbra. Outside the cone to the disc it stands before the receiver's plane.
+/// far off that the map shows its penumbra; below 0 outside the map. Outside the cone to the disc it stands before the receiver's plane.
 float far_blocker(ShadowViewData view, ReceiverPlane plane, vec2 position, Penumbra penumbra, vec2 offset) {
     const ivec2 texel = ivec2(floor(position + offset * penumbra.texels_a_metre));
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(penumbra.size)))) return 0.0f;
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(penumbra.size)))) return -1.0f;
     const float distance_m = blocker_distance(view, plane, texel, penumbra.size);
     if (distance_m < penumbra.far_m) return 0.0f;
     if (length(offset) <= distance_m * view.disc_tangent) return distance_m;
@@ -151,32 +151,33 @@ float far_blocker(ShadowViewData view, ReceiverPlane plane, vec2 position, Penum
 float mean_blocker(ShadowViewData view, ReceiverPlane plane, vec2 position, Penumbra penumbra, float radius, out bool umbra) {
     float sum = 0.0f;
     float blockers = 0.0f;
-    int hiding = 0;
+    bool all_hide = true;
     [[dont_unroll]] for (int i = 0; i < search_taps; ++i) {
         const vec2 offset = disc_point(i, search_taps) * radius;
         const float distance_m = far_blocker(view, plane, position, penumbra, offset);
+        if (distance_m < 0.0f) continue;
+        // A tap stands for a disc about it of its share of the area.
+        all_hide = all_hide && distance_m > 0.0f && length(offset) - radius * inversesqrt(float(search_taps)) <= distance_m * view.disc_tangent;
         if (distance_m == 0.0f) continue;
         sum += distance_m;
         blockers += 1.0f;
-        // A tap stands for a disc about it of its share of the area.
-        if (length(offset) - radius * inversesqrt(float(search_taps)) <= distance_m * view.disc_tangent) ++hiding;
     }
-    umbra = hiding == search_taps;
+    umbra = all_hide && blockers > 0.0f;
     return blockers > 0.0f ? sum / blockers : 0.0f;
 }
 
-/// Does a ray to the point `toward` of the light's unit disc pass what stands in the way? The map is looked at where the ray
-/// is as far off as the mean blocker; if something nearer stands there, which the ray passes farther in, there as well.
-bool ray_blocked(ShadowViewData view, ReceiverPlane plane, vec2 position, Penumbra penumbra, vec2 toward, float radius) {
+/// Does what stands in the way keep back a ray to the point `toward` of the light's unit disc? The map is looked at where the
+/// ray is as far off as the mean blocker; if something nearer stands there, which the ray passes farther in, there as well.
+uint ray_tap(ShadowViewData view, ReceiverPlane plane, vec2 position, Penumbra penumbra, vec2 toward, float radius) {
     float at = radius;
     for (int i = 0; i < 2; ++i) {
         const float distance_m = far_blocker(view, plane, position, penumbra, toward * at);
-        if (distance_m == 0.0f) return false;
+        if (distance_m <= 0.0f) return distance_m == 0.0f ? tap_lit : tap_beyond;
         const float own = distance_m * view.disc_tangent;
-        if ((at - own) * length(toward) <= 0.5f * penumbra.texel_m) return true;
+        if ((at - own) * length(toward) <= 0.5f * penumbra.texel_m) return tap_blocked;
         at = own;
     }
-    return false;
+    return tap_lit;
 }
 
 /// Share of the light's disc that the receiver sees: a penumbra as wide as the disc looks from what stands in the way
@@ -199,10 +200,15 @@ float contact_hardened(ShadowViewData view, ReceiverPlane plane, vec2 position, 
         if (found_m > 0.0f || search == 0) distance_m = found_m;
     }
     if (distance_m == 0.0f) return near;
-    int lit = 0;
-    [[dont_unroll]] for (int i = 0; i < disc_taps; ++i)
-        if (!ray_blocked(view, plane, position, penumbra, disc_point(i, disc_taps), distance_m * view.disc_tangent)) ++lit;
-    return near * float(lit) / float(disc_taps);
+    float lit = 0.0f;
+    float known = 0.0f;
+    [[dont_unroll]] for (int i = 0; i < disc_taps; ++i) {
+        const uint tap = ray_tap(view, plane, position, penumbra, disc_point(i, disc_taps), distance_m * view.disc_tangent);
+        if (tap == tap_beyond) continue;  // the map
+        known += 1.0f;
+        lit += tap == tap_blocked ? 0.0f : 1.0f;
+    }
+    return known > 0.0f ? near * lit / known : near;
 }
 
 float shadow_in_view(ShadowViewData view, ReceiverPlane plane, uint filter_mode) {
