@@ -46,6 +46,7 @@ FrameRenderer::~FrameRenderer() {
     if (sky_specular_slot_) device_.textures().remove(*sky_specular_slot_);
     if (sky_irradiance_slot_) device_.textures().remove(*sky_irradiance_slot_);
     if (sky_picture_slot_) device_.textures().remove(*sky_picture_slot_);
+    if (sky_reflected_slot_) device_.textures().remove(*sky_reflected_slot_);
 }
 
 Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(gpu::Device& device, const std::string& shader_directory) {
@@ -69,6 +70,9 @@ Result<void> FrameRenderer::open() {
     auto timestamps = gpu::Timestamps::create(device_);
     if (!timestamps) return tl::unexpected(timestamps.error());
     timestamps_ = std::move(*timestamps);
+    auto sky_timestamps = gpu::Timestamps::create(device_);
+    if (!sky_timestamps) return tl::unexpected(sky_timestamps.error());
+    sky_timestamps_ = std::move(*sky_timestamps);
     auto nearest = device_.sampler(gpu::SamplerDescription::nearest_clamp());
     if (!nearest) return tl::unexpected(nearest.error());
     lighting_ = {&frame_buffer_, &shadow_views_, &shading_tables_, *nearest, &visible_lights_.buffer(), &voxels_.inputs()};
@@ -96,6 +100,7 @@ Result<RealtimeUpdate> FrameRenderer::update(const Scene& scene) {
         if (auto done = plan_lights(); !done) return tl::unexpected(done.error());
     if (prefiltered_sky_ != gpu_scene_.sky_revision())
         if (auto done = prefilter_sky(); !done) return tl::unexpected(done.error());
+    if (auto done = place_ambient(); !done) return tl::unexpected(done.error());
     return update;
 }
 
@@ -146,6 +151,8 @@ Result<void> FrameRenderer::prepare(const Camera& camera, const FrameSample& sam
     lighting_.shadows_traced = wanted_.shadows_traced;
     wanted_.cone_traced = sample.cone_traced;
     wanted_.cone_spacing = sample.cone_traced ? 1u << static_cast<unsigned>(settings_.vct.resolution) : 1u;
+    wanted_.ambient = inputs_.ambient;
+    occlude_sky(sample);
     if (auto done = prepare_volumes(sample); !done) return done;
     wanted_.volume = key_.volume;
     if (auto done = choose_rasterizer(); !done) return done;

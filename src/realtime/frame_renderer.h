@@ -12,8 +12,10 @@
 #include "gpu/pipeline.h"
 #include "gpu/timestamps.h"
 #include "graph/executor.h"
+#include "passes/ambient_occlusion/ambient_occlusion.h"
 #include "passes/compute_raster/compute_raster.h"
 #include "passes/cone_trace/cone_trace.h"
+#include "passes/environment/environment.h"
 #include "passes/meter/meter.h"
 #include "passes/sensors/sensors.h"
 #include "passes/shade/shade.h"
@@ -39,6 +41,7 @@ struct FrameSample {
     bool environment = true;
     bool measures = false;           ///< light at points, not a picture: shadow maps as fine as they get
     bool cone_traced = false;        ///< indirect light and the sky by cones through the voxel volume
+    bool occludes_sky = false;       ///< without cones: what the picture shows hides the sky, if the scene wants that
     VolumesBehind volumes_behind = VolumesBehind::fewest;
     std::uint32_t aov = shading::frame_aov_none;
     std::uint32_t seed = 0;
@@ -97,6 +100,8 @@ public:
     };
     [[nodiscard]] Result<std::vector<Illuminance>> illuminances(const std::vector<Receiver>& receivers, bool environment,
                                                                 bool cone_traced);
+    /// Times of the sky's filtering, as if it had just changed; waits.
+    [[nodiscard]] Result<PassTimes> time_sky();
     /// Whether blended fragments found no room since the last call; if so, makes room, and the picture must
     /// be rendered again. Waits.
     [[nodiscard]] Result<bool> grow_fragments();
@@ -129,6 +134,7 @@ private:
         passes::SceneFeatures features;
         bool aov = false, cone_traced = false, cone_shadows = false, shadows_traced = false;
         std::uint32_t cone_spacing = 1;  // pixels
+        bool sky_occluded = false, ambient = false;
         bool surfaces_ahead = false;  // what the camera sees is found beside voxelization
         bool volumes = false;           // a directional light casts its shadows by them
         bool maps_after_volumes = false;  // and by maps, where surfaces cast no volume
@@ -224,13 +230,18 @@ private:
                                               gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> render_batch(const Camera& camera, const FrameSample& sample, std::size_t batch, PassTimes* times);
     [[nodiscard]] Result<void> prefilter_sky();
+    [[nodiscard]] Result<void> filter_sky(PassTimes* times);
+    /// Finds out what stands for the light of surroundings, if the scene wants that.
+    [[nodiscard]] Result<void> place_ambient();
+    /// Whether and how a sample finds out what hides the sky.
+    void occlude_sky(const FrameSample& sample);
 
     gpu::Device& device_;
     gpu::Pipelines pipelines_;
     GpuScene gpu_scene_;
     std::unique_ptr<graph::Executor> shadow_executor_, surface_executor_, frame_executor_;
     SurfacesAhead ahead_;  // in surface_executor_
-    gpu::Timestamps timestamps_;
+    gpu::Timestamps timestamps_, sky_timestamps_;
 
     VoxelVolume voxels_;
     ShadowVolumes volumes_;
@@ -275,11 +286,19 @@ private:
     std::uint32_t draw_calls_ = 0;
 
     gpu::Buffer frame_buffer_, camera_view_, shadow_cull_views_, shadow_views_, shading_tables_, fragments_;
-    gpu::Image shadow_depth_, shadow_slope_, sum_, display_, sky_specular_, sky_irradiance_, sky_picture_;
+    gpu::Image shadow_depth_, shadow_slope_, sum_, display_;
     GrowingBuffer visible_lights_{"visible lights", 0}, light_grid_{"light grid", 0};
     GrowingBuffer raster_ranges_{"raster ranges", 0}, camera_raster_view_{"camera raster view", 0},
         shadow_raster_views_{"shadow raster views", 0};
-    std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_, sky_picture_slot_;
+    passes::EnvironmentMaps sky_maps_;
+    std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_, sky_picture_slot_, sky_reflected_slot_;
+    /// What the shell that stands for surroundings follows from.
+    struct AmbientKey {
+        AmbientLight kind = AmbientLight::none;
+        std::uint64_t surfaces = 0, lights = 0, sky = 0;
+        bool operator==(const AmbientKey&) const = default;
+    } ambient_key_;
+    shading::AmbientOcclusionConstants occlusion_{};
     std::deque<gpu::TimelineValue> in_flight_;
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "passes/accumulate/accumulate.h"
+#include "passes/ambient_occlusion/ambient_occlusion.h"
 #include "passes/blend/blend.h"
 #include "passes/shadow_cones/shadow_cones.h"
 #include "passes/tonemap/tonemap.h"
@@ -85,10 +86,11 @@ Result<void> FrameRenderer::build_frame_graph() {
         auto added = add_visibility(graph, extent, lists);
         if (!added) return tl::unexpected(added.error());
         visibility = *added;
-        if (follows) seen.surfaces = passes::create_surfaces(graph, visibility, extent);
+        if (follows || wanted_.sky_occluded) seen.surfaces = passes::create_surfaces(graph, visibility, extent);
     }
     const graph::ImageHandle picture = passes::create_picture(graph, extent);
-    passes::ShadeOptions options{.aov = wanted_.aov, .leaves = follows && !ahead ? &seen.surfaces : nullptr,
+    passes::ShadeOptions options{.aov = wanted_.aov, .leaves = (follows || wanted_.sky_occluded) && !ahead ? &seen.surfaces : nullptr,
+                                 .sky_follows = wanted_.sky_occluded,
                                  .shadow_spacing = std::min(wanted_.cone_spacing, most_shadow_spacing)};
     if (lighting_.shadows_traced && !wanted_.aov) {
         auto traced = passes::add_pixel_shadows(graph, pipelines_, inputs_, lighting_, visibility.ids, volume, extent, options.shadow_spacing);
@@ -124,6 +126,10 @@ Result<void> FrameRenderer::build_frame_graph() {
         if (auto done = add_shade(); !done) return done;
     if (follows)
         if (auto done = passes::add_cone_light(graph, pipelines_, cones, traced, picture); !done) return done;
+    if (wanted_.sky_occluded)
+        if (auto done = passes::add_ambient_occlusion(graph, pipelines_, inputs_, lighting_, seen.surfaces, picture, extent, occlusion_,
+                                                      wanted_.aov); !done)
+            return done;
     graph::BufferHandle fragments;
     if (wanted_.blended && !wanted_.aov) {
         fragments = graph.import_buffer(fragments_.description());

@@ -33,45 +33,74 @@ struct Spread {
     }
 };
 
+gpu::SamplerDescription sky_sampler() {
+    gpu::SamplerDescription sampler;
+    sampler.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    return sampler;
+}
+
 }  // namespace
 
 Result<void> FrameRenderer::prefilter_sky() {
     prefiltered_sky_ = gpu_scene_.sky_revision();
     const shading::SkyData& sky = gpu_scene_.flat().sky();
-    gpu::SamplerDescription sampler;
-    sampler.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    auto linear = device_.sampler(sampler);
+    const bool formula = shading::sky_is_formula(sky);
+    if (!formula && !gpu_scene_.sky_image()) {
+        sky_maps_.specular = {};
+        return gpu_scene_.set_sky_maps({});
+    }
+    const int width = formula ? 0 : gpu_scene_.flat().textures()[sky.texture_index]->width;
+    const auto made_anew = passes::reserve_environment(device_, sky_maps_, static_cast<std::uint32_t>(width));
+    if (!made_anew) return tl::unexpected(made_anew.error());
+    auto linear = device_.sampler(sky_sampler());
     if (!linear) return tl::unexpected(linear.error());
-    const auto place = [&](std::optional<std::uint32_t>& slot, const gpu::Image& image) -> Result<void> {
-        if (slot) return device_.textures().replace(*slot, image, *linear);
-        auto added = device_.textures().add(image, *linear);
+    const auto place = [&](std::optional<std::uint32_t>& slot, const gpu::Image& map) -> Result<void> {
+        if (slot && !*made_anew) return {};
+        if (slot) return device_.textures().replace(*slot, map, *linear);
+        auto added = device_.textures().add(map, *linear);
         if (!added) return tl::unexpected(added.error());
         slot = *added;
         return {};
     };
     GpuScene::SkyMaps maps;
-    std::optional<std::uint32_t> source = gpu_scene_.sky_slot();
-    std::uint32_t width = source ? static_cast<std::uint32_t>(gpu_scene_.flat().textures()[sky.texture_index]->width) : 0;
-    if (shading::sky_is_formula(sky)) {
-        auto drawn = passes::draw_sky(device_, pipelines_, sky);
-        if (!drawn) return tl::unexpected(drawn.error());
-        sky_picture_ = std::move(*drawn);
-        if (auto done = place(sky_picture_slot_, sky_picture_); !done) return done;
-        source = maps.picture = *sky_picture_slot_;
-        width = sky_picture_.extent().width;
+    if (formula) {
+        if (auto done = place(sky_picture_slot_, sky_maps_.picture); !done) return done;
+        maps.picture = *sky_picture_slot_;
+        if (auto done = device_.upload(sky_maps_.record, std::span(&sky, 1)); !done) return done;
     }
-    if (source) {
-        auto made = passes::prefilter_environment(device_, pipelines_, *source, width);
-        if (!made) return tl::unexpected(made.error());
-        sky_specular_ = std::move(made->specular);
-        sky_irradiance_ = std::move(made->irradiance);
-        if (auto done = place(sky_specular_slot_, sky_specular_); !done) return done;
-        if (auto done = place(sky_irradiance_slot_, sky_irradiance_); !done) return done;
-        maps.specular = *sky_specular_slot_;
-        maps.irradiance = *sky_irradiance_slot_;
-        maps.specular_levels = sky_specular_.mips();
-    }
-    return gpu_scene_.set_sky_maps(maps);
+    if (auto done = place(sky_specular_slot_, sky_maps_.specular); !done) return done;
+    if (auto done = place(sky_irradiance_slot_, sky_maps_.irradiance); !done) return done;
+    if (auto done = place(sky_reflected_slot_, sky_maps_.reflected); !done) return done;
+    maps.specular = *sky_specular_slot_;
+    maps.irradiance = *sky_irradiance_slot_;
+    maps.specular_levels = sky_maps_.specular.mips();
+    return gpu_scene_.set_sky_maps(maps).and_then([&] { return filter_sky(nullptr); });
+}
+
+Result<void> FrameRenderer::filter_sky(PassTimes* times) {
+    auto commands = device_.begin_commands("environment");
+    if (!commands) return tl::unexpected(commands.error());
+    auto linear = device_.sampler(sky_sampler());
+    if (!linear) return tl::unexpected(linear.error());
+    const passes::EnvironmentWork work{shading::sky_is_formula(gpu_scene_.flat().sky()) ? nullptr : gpu_scene_.sky_image(), *linear,
+                                       settings_.ambient != AmbientLight::none, settings_.ambient == AmbientLight::constant};
+    sky_timestamps_.begin_frame();
+    if (auto done = passes::record_environment(*commands, pipelines_, sky_maps_, work, sky_timestamps_); !done) return done;
+    auto submitted = device_.submit(std::move(*commands));
+    if (!submitted) return tl::unexpected(submitted.error());
+    if (!times) return {};
+    auto taken = sky_timestamps_.wait();
+    if (!taken) return tl::unexpected(taken.error());
+    for (const gpu::ScopeTime& scope : taken->scopes) times->passes.push_back({scope.name, scope.milliseconds});
+    times->total_ms = taken->total_milliseconds;
+    return {};
+}
+
+Result<PassTimes> FrameRenderer::time_sky() {
+    PassTimes times;
+    if (sky_maps_.specular.handle() == VK_NULL_HANDLE) return times;
+    auto done = filter_sky(&times);
+    return done ? Result<PassTimes>(std::move(times)) : tl::unexpected(done.error());
 }
 
 Result<void> FrameRenderer::record_sensor_batch(const gpu::Buffer& sensors, std::uint32_t count, const FrameSample& sample,
@@ -118,7 +147,7 @@ Result<std::vector<FrameRenderer::Illuminance>> FrameRenderer::illuminances(cons
         sample.jitter_shadows = true;
         for (std::size_t batch = 0; batch < plan_.batches.size(); ++batch) {
             const passes::SensorLights lights{plan_.batches[batch].first_light, plan_.batches[batch].light_count,
-                                              environment && !cone_traced && batch == 0};
+                                              environment && !cone_traced && batch == 0, !cone_traced && batch == 0};
             if (auto done = record_sensor_batch(*buffer, static_cast<std::uint32_t>(sensors.size()), sample, batch, lights); !done)
                 return tl::unexpected(done.error());
             auto read = device_.read_back_as<shading::SensorData>(*buffer);

@@ -26,6 +26,7 @@ struct SkyRecord {
     std::uint32_t specular_slot = shading::no_texture;
     std::uint32_t irradiance_slot = shading::no_texture;
     std::uint32_t specular_levels = 1;
+    shading::AmbientData ambient{};  // and its lights
 };
 
 constexpr std::uint64_t smallest_buffer_bytes = 4096;
@@ -137,10 +138,10 @@ std::uint32_t GpuScene::slot_of(std::uint32_t texture) const {
     return texture < textures_.size() && textures_[texture] ? textures_[texture]->slot : shading::no_texture;
 }
 
-std::optional<std::uint32_t> GpuScene::sky_slot() const {
-    const std::uint32_t slot = slot_of(flat_.sky().texture_index);
-    if (flat_.sky().model != shading::sky_model_image || slot == shading::no_texture) return std::nullopt;
-    return slot;
+const gpu::Image* GpuScene::sky_image() const {
+    const std::uint32_t texture = flat_.sky().texture_index;
+    if (flat_.sky().model != shading::sky_model_image || slot_of(texture) == shading::no_texture) return nullptr;
+    return &textures_[texture]->image;
 }
 
 void GpuScene::release_geometry(std::uint32_t index) {
@@ -318,8 +319,17 @@ Result<void> GpuScene::upload_sky() {
     record.specular_slot = sky_maps_.specular;
     record.irradiance_slot = sky_maps_.irradiance;
     record.specular_levels = sky_maps_.specular_levels;
-    if (auto reserved = sky_.reserve(device_, sizeof(record), 0); !reserved) return reserved;
-    return device_.upload(sky_.buffer(), std::span<const SkyRecord>(&record, 1));
+    record.ambient = ambient_.data;
+    record.ambient.light_count = static_cast<std::uint32_t>(ambient_.lights.size());
+    const std::uint64_t lights = std::max<std::uint64_t>(1, ambient_.lights.size()) * sizeof(shading::AmbientLightData);
+    if (auto reserved = sky_.reserve(device_, sizeof(record) + lights, 0); !reserved) return reserved;
+    if (auto done = device_.upload(sky_.buffer(), std::span<const SkyRecord>(&record, 1)); !done || ambient_.lights.empty()) return done;
+    return device_.upload<shading::AmbientLightData>(sky_.buffer(), ambient_.lights, sizeof(record));
+}
+
+Result<void> GpuScene::set_ambient(Ambient ambient) {
+    ambient_ = std::move(ambient);
+    return upload_sky();
 }
 
 Result<void> GpuScene::set_sky_maps(const SkyMaps& maps) {

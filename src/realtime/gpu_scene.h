@@ -9,6 +9,7 @@
 #include "core/result.h"
 #include "gpu/commands.h"
 #include "gpu/device.h"
+#include "passes/common/ambient_shared.h"
 #include "passes/common/frame_shared.h"
 #include "passes/common/scene_inputs.h"
 #include "realtime/moving_instances.h"
@@ -57,6 +58,12 @@ public:
         std::uint32_t specular_levels = 1;
     };
     [[nodiscard]] Result<void> set_sky_maps(const SkyMaps& maps);
+    /// What stands for the light of surroundings where none is traced.
+    struct Ambient {
+        shading::AmbientData data{.sky_slot = shading::no_texture};
+        std::vector<shading::AmbientLightData> lights;
+    };
+    [[nodiscard]] Result<void> set_ambient(Ambient ambient);
 
     [[nodiscard]] const convert::FlatScene& flat() const { return flat_; }
     [[nodiscard]] const gpu::Buffer& index_buffer() const { return indices_.buffer(); }
@@ -82,7 +89,8 @@ public:
     [[nodiscard]] const MovingInstances& surfaces() const { return surfaces_; }
     /// By geometry: goes up when its mesh was uploaded anew.
     [[nodiscard]] const std::vector<std::uint64_t>& geometry_revisions() const { return geometry_revisions_; }
-    [[nodiscard]] std::optional<std::uint32_t> sky_slot() const;
+    /// Of a sky that is an image; else null.
+    [[nodiscard]] const gpu::Image* sky_image() const;
 
 private:
     struct Range {
@@ -119,6 +127,7 @@ private:
     std::vector<std::optional<LoadedTexture>> textures_;
     std::vector<std::uint32_t> light_shadows_;
     SkyMaps sky_maps_;
+    Ambient ambient_;
     MovingInstances surfaces_;
     Bounds bounds_;
     bool compact_ = false;  // convert.vertex_precision

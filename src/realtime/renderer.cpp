@@ -32,22 +32,24 @@ struct AovKind {
     bool over_hits;            // the mean over what was hit alone; else nothing counts as 0
     bool cone_traced = false;  // made by cones
     bool needs_cones = false;  // and by nothing else
+    bool occludes_sky = false; // without cones: by what the picture shows
 };
-constexpr std::array<AovKind, 9> aov_kinds{{{"albedo", shading::frame_aov_albedo, 3, false},
+constexpr std::array<AovKind, 10> aov_kinds{{{"albedo", shading::frame_aov_albedo, 3, false},
                                             {"normal", shading::frame_aov_normal, 3, false},
                                             {"depth", shading::frame_aov_depth, 1, true},
                                             {"position", shading::frame_aov_position, 3, true},
-                                            {"direct", shading::frame_aov_none, 3, false},
+                                            {"direct", shading::frame_aov_none, 3, false, false, false, true},
                                             {"indirect", shading::frame_aov_indirect, 3, false, true},
-                                            {"ao", shading::frame_aov_occlusion, 1, true, true, true},
+                                            {"illuminance", shading::frame_aov_illuminance, 3, true, true, false, true},
+                                            {"ao", shading::frame_aov_occlusion, 1, true, true, false, true},
                                             {"voxels", shading::frame_aov_voxels, 3, false, true, true},
                                             {"opacity", shading::frame_aov_opacity, 1, false, true, true}}};
 
 Result<AovKind> find_aov(const std::string& name, bool cone_traced) {
     const auto found = std::find_if(aov_kinds.begin(), aov_kinds.end(), [&](const AovKind& kind) { return name == kind.name; });
     if (found == aov_kinds.end())
-        return fail("aovs", fmt::format("expected albedo, normal, depth, position, direct, indirect, ao, voxels or opacity, "
-                                        "found \"{}\"", name));
+        return fail("aovs", fmt::format("expected albedo, normal, depth, position, direct, indirect, illuminance, ao, "
+                                        "voxels or opacity, found \"{}\"", name));
     if (found->needs_cones && !cone_traced) return fail("aovs", fmt::format("{} is made by voxel cones: expected gi vct with it", name));
     return *found;
 }
@@ -141,6 +143,7 @@ struct RealtimeRenderer::State {
                     sample.shadow_index = sample.index;
                 sample.aov = kind.code;
                 sample.cone_traced = options.gi == "vct" && kind.cone_traced;
+                sample.occludes_sky = options.gi == "none" && kind.occludes_sky;
                 PassTimes times;
                 const auto begin = std::chrono::steady_clock::now();
                 if (auto rendered = frames->render(camera, sample, series ? &times : nullptr); !rendered)
@@ -176,6 +179,7 @@ struct RealtimeRenderer::State {
             sample.force_shadows = !options.keep_shadows;
             sample.count = 0;  // as in motion: nothing is left to later frames
             sample.cone_traced = options.gi == "vct";
+            sample.occludes_sky = options.gi == "none";
             const auto begin = std::chrono::steady_clock::now();
             if (auto done = frames->render(camera, sample); !done) return done;
             const std::chrono::duration<double, std::milli> cpu = std::chrono::steady_clock::now() - begin;
@@ -186,6 +190,22 @@ struct RealtimeRenderer::State {
             if (sample.timed_whole || !overlaps) series.add_whole(times, cpu.count());
         }
         series.write(statistics);
+        return time_sky(options.frames_timed, statistics);
+    }
+
+    /// What filtering the sky takes, which frames do only where it changed.
+    Result<void> time_sky(int count, RealtimeStatistics& statistics) {
+        TimeSeries series;
+        for (int i = 0; i < count; ++i) {
+            const auto times = frames->time_sky();
+            if (!times) return tl::unexpected(times.error());
+            if (times->passes.empty()) return {};
+            series.add(*times, 0);
+        }
+        RealtimeStatistics sky;
+        series.write(sky);
+        statistics.sky_passes = std::move(sky.passes);
+        statistics.sky_gpu_ms = sky.gpu_ms_total;
         return {};
     }
 
@@ -257,7 +277,7 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
 
     TimeSeries series;
     const bool time_still = statistics && options.frames_timed <= 0;
-    const AovKind radiance{"", shading::frame_aov_none, 3, false, true};
+    const AovKind radiance{"", shading::frame_aov_none, 3, false, true, false, true};
     Picture picture;
     if (options.samples > 0) {
         auto image = state_->accumulate(camera, options, radiance, time_still ? &series : nullptr, progress);

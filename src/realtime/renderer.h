@@ -43,9 +43,10 @@ struct RealtimeOptions {
     VolumesBehind volumes_behind = VolumesBehind::fewest;  ///< of render.sun_shadows volumes: to compare
     int frames_timed = 0;       ///< > 0: time this many frames after warm-up
     bool keep_shadows = false;  ///< timed frames draw their shadow maps once, not anew each
-    /// albedo normal depth position direct indirect: depth is the distance along the view axis in metres; depth
-    /// and position are means over what was hit (0 where nothing was), the others box-filtered like the picture.
-    /// With vct also ao (openness of the hemisphere by cosine), voxels and opacity (the volume as the camera sees it).
+    /// albedo normal depth position direct indirect illuminance: depth is the distance along the view axis in metres; depth
+    /// and position are means over what was hit (0 where nothing was), as is illuminance (lux on the side that is seen); the
+    /// others are box-filtered like the picture. ao: openness of the hemisphere by cosine, by cones, or by what the picture shows.
+    /// With vct also voxels and opacity (the volume as the camera sees it).
     std::vector<std::string> aovs;
 };
 struct PassTime {
@@ -56,6 +57,8 @@ struct RealtimeStatistics {
     std::vector<PassTime> passes;
     double gpu_ms_total = 0, cpu_ms = 0;  ///< of a frame, medians
     double gpu_ms_mean = 0;               ///< of a frame
+    std::vector<PassTime> sky_passes;     ///< of filtering the sky, where it changes; with frames_timed alone
+    double sky_gpu_ms = 0;                ///< likewise, in all
     std::string device;
     std::uint64_t gpu_memory_bytes = 0;
     std::uint64_t vertex_bytes = 0;  ///< of them, attributes of vertices (convert.vertex_precision)

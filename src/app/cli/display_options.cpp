@@ -1,6 +1,7 @@
 #include "app/cli/display_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "app/cli/false_colour.h"
 #include "app/cli/option_values.h"
@@ -22,7 +23,8 @@ void add_display_options(CLI::App& command, DisplayOptions& options) {
         "Tone curve: linear, hable, reinhard, aces, aces-narkowicz, agx or neutral; default as the scene says");
     command.add_option_function<std::string>(
         "--false-colour", [&](Text text) { options.false_colour = read_false_colour(text); },
-        "MIN:MAX or MIN:MAX:log in cd/m2: .png and .jpg show luminance in false colour, with iso-lines and a legend");
+        "MIN:MAX or MIN:MAX:log: .png and .jpg show luminance in cd/m2 in false colour, with iso-lines and a legend; with :lux "
+        "behind it, illuminance on the surfaces that are seen, in lux");
 }
 
 void apply_display_options(const DisplayOptions& options, Scene& scene) {
@@ -44,8 +46,11 @@ float Exposure::ev100(const Image& light, const ExposureSettings& settings, floa
 
 Image shown(const Picture& picture, const DisplaySettings& settings, const DisplayOptions& options) {
     if (!options.false_colour) return convert::displayed(picture.image, settings, picture.ev100);
-    const auto [low, high, logarithmic] = *options.false_colour;
-    return draw_in_false_colour(picture.image, logarithmic ? IsoScale::by_decades(low, high) : IsoScale::between(low, high), "cd/m2");
+    const FalseColourRange& range = *options.false_colour;
+    const IsoScale scale = range.logarithmic ? IsoScale::by_decades(range.low, range.high) : IsoScale::between(range.low, range.high);
+    if (!range.illuminance) return draw_in_false_colour(picture.image, scale, "cd/m2");
+    const auto layer = std::ranges::find(picture.layers, illuminance_layer_name, &Layer::name);
+    return draw_in_false_colour(layer != picture.layers.end() ? layer->image : picture.image, scale, "lux");
 }
 
 }  // namespace heliodon::cli

@@ -10,11 +10,14 @@
 
 namespace heliodon::cli {
 
-/// `MIN:MAX` or `MIN:MAX:log` of --false-colour, cd/m².
+/// `MIN:MAX` or `MIN:MAX:log` of --false-colour, cd/m², or with `:lux` lux.
 struct FalseColourRange {
     double low = 0, high = 1;
     bool logarithmic = false;
+    bool illuminance = false;  ///< on the surfaces that are seen, instead of luminance
 };
+/// The picture's layer that false colour in lux shows.
+inline constexpr const char* illuminance_layer_name = "illuminance";
 
 /// How pictures are shown, where the command line has a word to say: it wins over the scene's `render` block.
 struct DisplayOptions {

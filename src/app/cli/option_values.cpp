@@ -66,8 +66,8 @@ FrameRange read_frames(const std::string& text) {
 
 std::vector<std::string> read_aovs(const std::string& text) {
     static constexpr std::string_view known[] = {"albedo", "normal",   "depth", "position", "direct",
-                                                 "indirect", "variance", "samples", "ao", "voxels",
-                                                 "opacity"};
+                                                 "indirect", "variance", "samples", "illuminance", "ao",
+                                                 "voxels", "opacity"};
     std::vector<std::string> names = CLI::detail::split(text, ',');
     for (const std::string& name : names)
         if (std::find(std::begin(known), std::end(known), name) == std::end(known))
@@ -94,14 +94,23 @@ ToneCurve read_tone_curve(const std::string& text) {
 }
 
 FalseColourRange read_false_colour(const std::string& text) {
-    const std::vector<std::string> parts = CLI::detail::split(text, ':');
-    if (parts.size() == 2 || (parts.size() == 3 && parts[2] == "log")) {
+    std::vector<std::string> parts = CLI::detail::split(text, ':');
+    FalseColourRange range;
+    const auto ends_with = [&](const char* word) {
+        if (parts.size() < 3 || parts.back() != word) return false;
+        parts.pop_back();
+        return true;
+    };
+    range.illuminance = ends_with("lux");
+    range.logarithmic = ends_with("log");
+    if (parts.size() == 2) {
         const auto low = read_number<double>(parts[0]), high = read_number<double>(parts[1]);
-        const bool logarithmic = parts.size() == 3;
-        if (low && high && std::isfinite(*high) && *low < *high && (logarithmic ? *low > 0 : *low >= 0))
-            return {*low, *high, logarithmic};
+        if (low && high && std::isfinite(*high) && *low < *high && (range.logarithmic ? *low > 0 : *low >= 0)) {
+            range.low = *low, range.high = *high;
+            return range;
+        }
     }
-    refuse("--false-colour", "MIN:MAX or MIN:MAX:log in cd/m2, MIN below MAX and not below 0 (log: above 0)", text);
+    refuse("--false-colour", "MIN:MAX in cd/m2, MIN below MAX and not below 0 (MIN:MAX:log: above 0), or in lux with :lux behind it", text);
 }
 
 TimeRange read_time_range(const std::string& text) {
@@ -150,7 +159,7 @@ int read_voxels(const std::string& text) {
 }
 
 bool is_voxel_aov(const std::string& name) {
-    return name == "ao" || name == "voxels" || name == "opacity";
+    return name == "voxels" || name == "opacity";
 }
 
 bool is_path_aov(const std::string& name) {

@@ -28,12 +28,12 @@ struct FrameRange {
 /// `A..B`, both included, A ≤ B, not negative.
 [[nodiscard]] FrameRange read_frames(const std::string& text);
 
-/// Comma-separated names out of albedo, normal, depth, position, direct, indirect, and those of is_voxel_aov and is_path_aov.
+/// Comma-separated names out of albedo, normal, depth, position, direct, indirect, illuminance, ao, and those of is_voxel_aov and is_path_aov.
 [[nodiscard]] std::vector<std::string> read_aovs(const std::string& text);
 
 [[nodiscard]] float read_ev100(const std::string& text);
 [[nodiscard]] ToneCurve read_tone_curve(const std::string& text);
-/// `MIN:MAX`, 0 ≤ MIN < MAX, or `MIN:MAX:log`, 0 < MIN.
+/// `MIN:MAX`, 0 ≤ MIN < MAX, or `MIN:MAX:log`, 0 < MIN; either with `:lux` behind it.
 [[nodiscard]] FalseColourRange read_false_colour(const std::string& text);
 struct TimeRange {
     CivilTime first, last;
@@ -48,7 +48,7 @@ struct TimeRange {
 [[nodiscard]] std::string read_gi(const std::string& text);
 /// A power of two that a voxel volume may have an edge.
 [[nodiscard]] int read_voxels(const std::string& text);
-/// Whether the AOV shows the voxel volume: ao, voxels, opacity.
+/// Whether the AOV shows the voxel volume: voxels, opacity.
 [[nodiscard]] bool is_voxel_aov(const std::string& name);
 /// Whether the AOV tells of the path tracer's samples: variance, samples.
 [[nodiscard]] bool is_path_aov(const std::string& name);

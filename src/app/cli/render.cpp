@@ -64,6 +64,17 @@ struct Rendered {
 
 constexpr int default_samples = 64;
 
+bool shows_illuminance(const RenderOptions& options) {
+    return options.display.false_colour && options.display.false_colour->illuminance;
+}
+/// The layers that the engines are asked for: also the one that false colour in lux shows.
+std::vector<std::string> wanted_layers(const RenderOptions& options) {
+    std::vector<std::string> layers = options.aovs;
+    if (shows_illuminance(options) && std::ranges::find(layers, illuminance_layer_name) == layers.end())
+        layers.emplace_back(illuminance_layer_name);
+    return layers;
+}
+
 bool is_exr(const std::string& path) {
     return CLI::detail::to_lower(path).ends_with(".exr");
 }
@@ -106,7 +117,7 @@ public:
         options_.environment = !options.no_environment;
         options_.seed = options.seed;
         options_.threads = options.threads;
-        options_.aovs = options.aovs;
+        options_.aovs = wanted_layers(options);
     }
 
     Result<Rendered> render(const Scene& scene, const Camera& camera, const Progress& progress) override {
@@ -168,7 +179,7 @@ public:
         options_.seed = options.seed;
         options_.environment = !options.no_environment;
         options_.frames_timed = options.frames_timed;
-        options_.aovs = options.aovs;
+        options_.aovs = wanted_layers(options);
     }
 
     Result<Rendered> render(const Scene& scene, const Camera& camera, const Progress& progress) override {
@@ -183,10 +194,20 @@ public:
             passes.push_back({{"name", pass.name}, {"gpu_ms", pass.gpu_ms}});
             summary += fmt::format("\n  {:<28}{:10.3f} ms", pass.name, pass.gpu_ms);
         }
+        if (options_.gi == "none" && scene.render_settings().ambient != AmbientLight::none)
+            summary += "\nlight that surroundings reflect is an approximation (render.ambient): a shell of the scene's mean albedo";
+        json sky_passes = json::array();
+        if (!numbers.sky_passes.empty()) summary += fmt::format("\nwhere the sky changes {:.3f} ms more", numbers.sky_gpu_ms);
+        for (const PassTime& pass : numbers.sky_passes) {
+            sky_passes.push_back({{"name", pass.name}, {"gpu_ms", pass.gpu_ms}});
+            summary += fmt::format("\n  {:<28}{:10.3f} ms", pass.name, pass.gpu_ms);
+        }
         return Rendered{std::move(*picture),
                         {{"gpu_ms_total", numbers.gpu_ms_total},
                          {"passes", std::move(passes)},
                          {"cpu_ms", numbers.cpu_ms},
+                         {"sky_gpu_ms", numbers.sky_gpu_ms},
+                         {"sky_passes", std::move(sky_passes)},
                          {"device", numbers.device},
                          {"gpu_memory_bytes", numbers.gpu_memory_bytes},
                          {"vertex_bytes", numbers.vertex_bytes},
@@ -271,6 +292,8 @@ void check_aovs(const RenderOptions& options, const Scene& scene) {
     for (const std::string& name : options.aovs)
         if (is_path_aov(name) && options.engine != Engine::path)
             throw CLI::ValidationError("--aov", fmt::format("{}: expected with --engine path", name));
+        else if (name == "ao" && options.engine != Engine::realtime)
+            throw CLI::ValidationError("--aov", "ao: expected with --engine realtime");
         else if (is_voxel_aov(name) && !has_volume)
             throw CLI::ValidationError("--aov", fmt::format("{} shows the voxel volume: expected --engine realtime "
                                                             "with --gi vct (or render.gi in the scene)", name));
@@ -290,8 +313,13 @@ Result<void> render_frame(Renderer& renderer, Scene& scene, const RenderOptions&
     const DisplaySettings display = scene.render_settings().display;
     rendered->picture.ev100 = exposure.ev100(rendered->picture.image, display.exposure, camera->ev100(), 1 / options.fps);
     rendered->picture.has_ev100 = true;
+    Picture asked = rendered->picture;  // .exr files hold the layers that --aov names alone
+    std::erase_if(asked.layers, [&](const Layer& layer) {
+        return layer.name == illuminance_layer_name && std::ranges::find(options.aovs, layer.name) == options.aovs.end();
+    });
     for (const std::string& path : frame_outputs(options, frame))
-        if (auto written = write_rendered(path, rendered->picture, display, options.display); !written) return written;
+        if (auto written = write_rendered(path, is_exr(path) ? asked : rendered->picture, display, options.display); !written)
+            return written;
     if (stopped) {
         const auto output = resumable_output(options);
         return fail("", fmt::format("interrupted after {} samples a pixel: {} the picture so far, {}", rendered->samples,
@@ -418,8 +446,9 @@ void declare_picture_options(CLI::App& command, RenderOptions& options) {
         ->allow_extra_args(false);
     command.add_option_function<std::string>(
         "--aov", [&](Text text) { options.aovs = read_aovs(text); },
-        "Extra EXR layers: albedo,normal,depth,position,direct,indirect; with --engine path: variance (of the pixel's mean "
-        "luminance), samples; with --gi vct: ao,voxels,opacity");
+        "Extra EXR layers: albedo,normal,depth,position,direct,indirect,illuminance (lux on the side that is seen); with "
+        "--engine path: variance (of the pixel's mean luminance), samples; with --engine realtime: ao; with --gi vct: "
+        "voxels,opacity");
     command.add_option_function<std::string>(
         "--frames", [&](Text text) { options.frames = read_frames(text); },
         "FIRST..LAST of the animation, one numbered output each (### in its name)");

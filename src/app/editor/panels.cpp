@@ -190,6 +190,10 @@ void global_illumination_panel(Scene& scene) {
     edited |= edit_volume(settings);
     edited |= edit_cone_tracing(settings.vct);
     ImGui::EndDisabled();
+    ImGui::BeginDisabled(traced);
+    edited |= named_choice("light of surroundings (approximation)", settings.ambient, "none\0constant\0directional\0");
+    edited |= ImGui::Checkbox("the sky hidden by what is seen", &settings.ambient_occlusion.on);
+    ImGui::EndDisabled();
     if (edited) scene.set_render_settings(std::move(settings));
 }
 

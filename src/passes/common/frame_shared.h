@@ -73,6 +73,7 @@ SHADING_CONST uint frame_aov_indirect = 5u;
 SHADING_CONST uint frame_aov_occlusion = 6u;  // openness
 SHADING_CONST uint frame_aov_voxels = 7u;     // radiance of the voxel volume
 SHADING_CONST uint frame_aov_opacity = 8u;    // its cover
+SHADING_CONST uint frame_aov_illuminance = 9u;  // lux that fall on the surface's side
 
 SHADING_CONST uint shadow_filter_nearest = 0u;  // the texel grid moves between samples and the mean filters
 SHADING_CONST uint shadow_filter_percentage_closer = 1u;

@@ -4,10 +4,9 @@
 #include "passes/common/light_visibility.glsl"
 #include "passes/common/surface.glsl"
 #include "passes/common/hash.glsl"
-#include "passes/common/sky_lookup.glsl"
+#include "passes/common/sky_light.glsl"
 #include "passes/light_grid/light_choice.glsl"
 #include "passes/common/luminaires.glsl"
-#include "shading/environment.h"
 
 layout(set = 0, binding = 11, std430) readonly buffer ShadingTables { float shading_tables[]; };
 float shading_table(uint index) { return shading_tables[index]; }
@@ -70,30 +69,14 @@ vec3 lights_reflected(SurfacePoint point, BsdfLobes lobes, vec3 wo, FrameData fr
     return sum;
 }
 
-/// Irradiance / π on a plane of this normal under the open sky.
-vec3 sky_diffuse(vec3 normal) {
-    vec3 texel = vec3(1.0f);
-    if (sky_irradiance_slot != no_texture) texel = sky_map(sky_irradiance_slot, normal, 0.0f);
-    return sky_radiance_filtered(sky_data, texel);
-}
-
-vec3 sky_specular(vec3 normal, vec3 wo, float roughness) {
-    vec3 texel = vec3(1.0f);
-    if (sky_specular_slot != no_texture) {
-        const vec3 mirror = reflect(-wo, normal);
-        texel = sky_map(sky_specular_slot, dominant_reflection(normal, mirror, roughness), roughness * float(sky_specular_levels - 1u));
-    }
-    return sky_radiance_filtered(sky_data, texel);
-}
-
-/// The open sky by split sums; occlusion darkens its diffuse part alone.
-vec3 sky_reflected(SurfacePoint point, BsdfLobes lobes) {
+/// The open sky, and what surroundings reflect, by split sums; occlusion darkens their diffuse part alone.
+vec3 sky_reflected(SurfacePoint point, BsdfLobes lobes, bool sky) {
     const Surface surface = point.material.surface;
     const vec3 normal = point.frame.normal;
-    vec3 sum = bsdf_diffuse_albedo_prepared(surface, lobes) * point.material.occlusion * sky_diffuse(normal);
-    sum += bsdf_specular_albedo_prepared(surface, lobes) * sky_specular(normal, point.wo, surface.roughness);
+    vec3 sum = bsdf_diffuse_albedo_prepared(surface, lobes) * point.material.occlusion * surroundings_diffuse(normal, sky);
+    sum += bsdf_specular_albedo_prepared(surface, lobes) * surroundings_specular(normal, point.wo, surface.roughness, sky);
     if (lobes.coat_albedo > 0.0f)
-        sum += bsdf_coat_albedo_prepared(lobes) * sky_specular(normal, point.wo, surface.clearcoat_roughness);
+        sum += bsdf_coat_albedo_prepared(lobes) * surroundings_specular(normal, point.wo, surface.clearcoat_roughness, sky);
     return sum;
 }
 
@@ -103,7 +86,8 @@ vec3 surface_radiance(SurfacePoint point, vec3 wo, BsdfLobes lobes, FrameData fr
     vec3 radiance = lights_reflected(point, lobes, wo, frame, pixel_seed);
     if (frame.batch == 0u) {
         radiance += point.material.emission;
-        if (has_sky && frame.sky_enabled != 0u && frame.cone_traced == 0u && sky_data.model != sky_model_none && wo.z > 0.0f) radiance += sky_reflected(point, lobes);
+        const bool sky = sky_shines(frame.sky_enabled);
+        if (!sky_follows && (sky || has_ambient) && frame.cone_traced == 0u && wo.z > 0.0f) radiance += sky_reflected(point, lobes, sky);
     }
     return radiance;
 }

@@ -37,6 +37,7 @@ struct SceneInputs {
     bool has_tested = false;   ///< something visible is alpha-masked
     bool has_blended = false;  ///< something visible is alpha-blended
     SceneFeatures features;
+    bool ambient = false;  ///< surroundings reflect light though none is traced (ambient_shared.h)
     std::uint32_t draw_calls = 0;  ///< indirect draws recorded; the passes count
 };
 
@@ -46,6 +47,7 @@ inline void set_material_constants(gpu::Specialization& constants, const SceneIn
     constants[11] = scene.features.textures ? 1u : 0u;
     constants[12] = scene.features.only_model;
     constants[13] = scene.features.sky ? 1u : 0u;
+    constants[18] = scene.ambient ? 1u : 0u;
 }
 
 /// Constants of every shader that asks lights for what they send (luminaires.glsl, scene_tables.glsl).

@@ -4,6 +4,7 @@
 
 #include "shading/octahedral.h"
 #include "shading/scene_data.h"
+#include "passes/common/ambient_shared.h"
 #include "passes/common/frame_shared.h"
 
 layout(set = 0, binding = 0, std430) readonly buffer VertexTable { uint vertex_table[]; };
@@ -19,6 +20,8 @@ layout(set = 0, binding = 7, std430) readonly buffer SkyTable {
     uint sky_specular_slot;    // prefiltered for roughness 0 … 1 over sky_specular_levels mips, or no_texture
     uint sky_irradiance_slot;  // irradiance / π by normal, or no_texture
     uint sky_specular_levels;
+    AmbientData ambient_data;
+    AmbientLightData ambient_lights[];
 };
 
 // What the scene has of what whole branches are for (SceneFeatures, scene_inputs.h).
@@ -29,6 +32,9 @@ layout(constant_id = 13) const bool has_sky = true;
 layout(constant_id = 14) const uint only_light = any_kind;
 layout(constant_id = 15) const bool has_many_lights = true;
 layout(constant_id = 16) const bool has_visible_lights = true;
+layout(constant_id = 18) const bool has_ambient = false;  // surroundings reflect light though none is traced
+// A pass of its own adds the sky and what surroundings reflect, and finds out what hides them (passes/ambient_occlusion).
+layout(constant_id = 19) const bool sky_follows = false;
 
 MaterialData material_of(InstanceData instance) {
     MaterialData material = material_table[instance.material];

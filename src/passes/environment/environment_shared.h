@@ -4,11 +4,10 @@
 SHADING_BEGIN
 
 struct EnvironmentConstants {
-    uint source;  // bindless slot of the equirectangular sky
-    uint width;   // of the map being written
+    uint width;  // of the map being written
     uint height;
     float roughness;  // specular maps
-    uint samples;
+    uint even;        // irradiance maps: the mean over all directions instead, whatever the normal
 };
 
 struct SkyPictureConstants {

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Illuminance on planes: the batch's lights with their shadows, and the open sky.
+// Illuminance on planes: the batch's lights with their shadows, and the open sky with what stands for surroundings.
 #include "passes/common/lighting.glsl"
 #include "passes/sensors/sensors_shared.h"
 
@@ -26,5 +26,6 @@ void main() {
     for (uint i = 0u; i < push.light_count; ++i)
         sum += illuminance_from(i, position, normal);
     if (push.sky_enabled != 0u) sum += sky_diffuse(normal) * pi;
+    if (has_ambient && push.ambient_enabled != 0u) sum += ambient_diffuse(normal, push.sky_enabled != 0u) * pi;
     sensors[index].illuminance = sum;
 }

@@ -10,9 +10,10 @@ Result<void> record_sensors(gpu::Commands& commands, gpu::Pipelines& pipelines, 
                             const SensorLights& lights) {
     gpu::Specialization constants = cone_constants(*lighting.volume, lighting.cone_shadows);
     set_light_constants(constants, scene);
+    constants[18] = scene.ambient ? 1u : 0u;
     auto pipeline = pipelines.compute("passes/sensors/sensors.comp", constants);
     if (!pipeline) return tl::unexpected(pipeline.error());
-    const shading::SensorConstants push{count, lights.first, lights.count, lights.sky ? 1u : 0u};
+    const shading::SensorConstants push{count, lights.first, lights.count, lights.sky ? 1u : 0u, lights.ambient ? 1u : 0u};
     const auto bindings = select_bindings(**pipeline, scene,
                                           {{9, *lighting.shadow_views},
                                            {10, gpu::Binding(shadow_depth, lighting.nearest)},
@@ -35,7 +36,7 @@ Result<void> record_cone_sensors(gpu::Commands& commands, gpu::Pipelines& pipeli
     const auto bindings = select_bindings(
         **pipeline, scene, {{12, sensors}, {20, gpu::Binding(*volume.faces, volume.trilinear)}, {21, *volume.data},
                           {22, gpu::Binding(*volume.depths, volume.trilinear)}, {23, *volume.occupancy}});
-    commands.dispatch_threads(**pipeline, shading::SensorConstants{count, 0, 0, 0}, bindings, {count, 1, 1});
+    commands.dispatch_threads(**pipeline, shading::SensorConstants{count}, bindings, {count, 1, 1});
     return {};
 }
 

@@ -6,7 +6,7 @@ namespace heliodon::passes {
 
 struct SensorLights {
     std::uint32_t first = 0, count = 0;
-    bool sky = false;
+    bool sky = false, ambient = false;
 };
 /// Records the illuminance of `count` SensorData planes under one batch of lights, outside any graph: the
 /// shadow maps must be in SHADER_READ_ONLY_OPTIMAL.

@@ -17,7 +17,8 @@ struct SensorConstants {
     uint sensor_count;
     uint light_first;
     uint light_count;
-    uint sky_enabled;  // with the first batch of lights only
+    uint sky_enabled;      // with the first batch of lights only, as is the next
+    uint ambient_enabled;  // what surroundings reflect, though no light is traced
 };
 
 SHADING_END

@@ -13,10 +13,13 @@ void leave_nothing(ivec2 pixel) { imageStore(surface_places, pixel, uvec4(0u)); 
 
 void leave_surface(ivec2 pixel, SurfacePoint point, vec3 wo, BsdfLobes lobes, FrameData frame) {
     // Nothing is seen of the back of a one-sided surface.
-    const uint effects = point.dark || wo.z <= 0.0f ? 0u : volume.effects;
+    const uint lit = sky_follows ? gi_effect_diffuse | gi_effect_specular : volume.effects;
+    const uint effects = point.dark || wo.z <= 0.0f ? 0u : lit;
+    ConeLobes albedo = cone_lobes(point.material.surface, lobes, effects);
+    if (sky_follows) albedo.diffuse *= point.material.occlusion;
+    if (frame.aov == frame_aov_illuminance) albedo.diffuse *= pi;
     const float depth_m = dot(point.position - frame.position, frame.forward);
-    const PackedSurface packed_surface = pack_surface(ConeSurface(depth_m, point.geometric, point.frame.normal, lobes.alpha, lobes.coat_alpha,
-                                                                  cone_lobes(point.material.surface, lobes, effects)));
+    const PackedSurface packed_surface = pack_surface(ConeSurface(depth_m, point.geometric, point.frame.normal, lobes.alpha, lobes.coat_alpha, albedo));
     imageStore(surface_places, pixel, packed_surface.place);
     imageStore(surface_albedos, pixel, packed_surface.albedos);
     imageStore(surface_lobes, pixel, uvec4(packed_surface.lobes));

@@ -23,6 +23,14 @@ vec4 background(vec3 direction) {
     return vec4(seen, 0.0f);
 }
 
+/// What a white Lambertian surface in its place reflects, times π, is the illuminance.
+void make_white(inout SurfacePoint point) {
+    point.material.surface = surface_default();
+    point.material.surface.model = material_model_lambert;
+    point.material.surface.base_color = vec3(1.0f);
+    point.material.emission = vec3(0.0f);
+}
+
 vec3 value_of(SurfacePoint point, vec3 wo, BsdfLobes lobes, uint pixel_seed) {
     if (!draws_aov) return surface_radiance(point, wo, lobes, frame, pixel_seed);
     switch (frame.aov) {
@@ -30,6 +38,7 @@ vec3 value_of(SurfacePoint point, vec3 wo, BsdfLobes lobes, uint pixel_seed) {
         case frame_aov_normal: return point.frame.normal;
         case frame_aov_depth: return vec3(dot(point.position - frame.position, frame.forward));
         case frame_aov_position: return point.position;
+        case frame_aov_illuminance: return pi * surface_radiance(point, wo, lobes, frame, pixel_seed);
         default: return vec3(0.0f);  // indirect light
     }
 }
@@ -46,7 +55,8 @@ void main() {
         if (leaves_surfaces) leave_nothing(ivec2(pixel));
     } else {
         const uint seed = pcg_hash(pixel.x + pcg_hash(pixel.y + pcg_hash(frame.random_seed)));
-        const SurfacePoint point = resolve_surface(visible.x - 1u, visible.y, frame, direction);
+        SurfacePoint point = resolve_surface(visible.x - 1u, visible.y, frame, direction);
+        if (draws_aov && frame.aov == frame_aov_illuminance) make_white(point);
         const vec3 wo = to_local(point.frame, point.wo);
         const BsdfLobes lobes = bsdf_prepare(point.material.surface, wo);
         if (leaves_surfaces) leave_surface(ivec2(pixel), point, wo, lobes, frame);
@@ -56,6 +66,8 @@ void main() {
         }
         if (shadows_traced) traced_shares = pixel_shares(ivec2(pixel), point.position, point.geometric, frame);
         value = vec4(value_of(point, wo, lobes, seed), 1.0f);
+        // Batches add up, the surface counts once.
+        if (draws_aov && frame.aov == frame_aov_illuminance && frame.batch != 0u) value.a = 0.0f;
         if (!draws_aov && frame.batch == 0u)
             value.rgb += lights_seen(frame.position, -point.wo, distance(frame.position, point.position));
     }

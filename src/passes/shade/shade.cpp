@@ -61,6 +61,7 @@ Result<void> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const Sce
     constants[21] = options.maps_follow ? 1 : 0;
     constants[0] = options.aov ? 1 : 0;
     constants[2] = options.leaves ? 1 : 0;
+    constants[19] = options.sky_follows ? 1 : 0;
     set_material_constants(constants, scene);
     set_light_constants(constants, scene);
     auto pipeline = pipelines.compute("passes/shade/shade.comp", constants);

@@ -34,6 +34,7 @@ struct Surfaces {
 struct ShadeOptions {
     bool aov = false;  ///< what FrameData::aov asks for instead of radiance
     const Surfaces* leaves = nullptr;  ///< what cones need to know of the surfaces, if it is to be left
+    bool sky_follows = false;  ///< add_ambient_occlusion() adds the sky's light
     graph::ImageHandle traced_shadows{};   ///< of add_pixel_shadows(), if they are traced ahead …
     std::uint32_t shadow_spacing = 1;      ///< … by one pixel in so many squared
     graph::ImageHandle shadowed{};         ///< of add_shadow_volumes(), if FrameData::volume_light casts them …

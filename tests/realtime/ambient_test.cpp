@@ -1,0 +1,188 @@
+// Light without global illumination: what surroundings are taken to reflect, what hides the sky, and illuminance of what is seen.
+#include "engine_parity.h"
+#include "shading/ambient.h"
+
+namespace heliodon::tests {
+namespace {
+
+class Ambient : public EngineParity {
+protected:
+    static void set(Scene& scene, AmbientLight ambient, bool occlusion) {
+        RenderSettings settings = scene.render_settings();
+        settings.ambient = ambient;
+        settings.ambient_occlusion.on = occlusion;
+        scene.set_render_settings(std::move(settings));
+    }
+    static Image layer(const Picture& picture, const char* name) {
+        for (const Layer& layer : picture.layers)
+            if (layer.name == name) return layer.image;
+        ADD_FAILURE() << "no layer " << name;
+        return Image(picture.image.width, picture.image.height, 3);
+    }
+    Picture layers(const Scene& scene, const Camera& camera, int size, int samples, std::vector<std::string> names) {
+        RealtimeOptions options;
+        options.width = options.height = size;
+        options.samples = samples;
+        options.aovs = std::move(names);
+        return render(scene, camera, options);
+    }
+};
+
+void set_constant_sky(Scene& scene, float luminance_nits) {
+    Sky sky;
+    sky.model = SkyModel::constant;
+    sky.luminance_nits = glm::vec3(luminance_nits);
+    scene.set_sky(sky);
+}
+
+TEST_F(Ambient, AFaceTurnedFromTheSunShowsWhatTheShellReflects) {
+    Scene scene;
+    const glm::vec3 albedo(0.2f, 0.4f, 0.8f);
+    add_floor(scene, 1, scene.add_material(lambert(albedo)));
+    const glm::vec3 way = glm::normalize(glm::vec3(0.5f, 0.6f, -0.2f));  // from below: the side that is seen gets none
+    add_sun(scene, way, glm::vec3(1000));
+    const Camera camera = camera_above(4, 0.5f);
+    for (const bool sky : {false, true}) {
+        if (sky) set_constant_sky(scene, 100);
+        const float seen = sky ? 100 : 0;
+        for (const AmbientLight kind : {AmbientLight::none, AmbientLight::constant, AmbientLight::directional}) {
+            set(scene, kind, false);
+            float reflected = 1000 * (kind == AmbientLight::directional ? shading::shell_reflected(way.y) : shading::shell_reflected_mean) + seen;
+            if (kind == AmbientLight::none) reflected = 0;
+            const glm::vec3 found = render(scene, camera, 4).rgb(1, 1);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(found[c], albedo[c] * (seen + albedo[c] * reflected), 1e-3f * (seen + 100)) << static_cast<int>(kind);
+        }
+    }
+}
+
+TEST_F(Ambient, TheShellReflectsAFormulaSkyAsQuadratureHasItAndItsMeanEvenly) {
+    Scene scene;
+    const float albedo = 0.5f;
+    add_floor(scene, 1, scene.add_material(lambert(glm::vec3(albedo))));
+    Sky sky;
+    sky.model = SkyModel::cie;  // even above, nothing below: E by a normal at angle A from the zenith is πL (1 + cos A)/2
+    sky.cie_type = 5;
+    sky.zenith_luminance_nits = 1000;
+    sky.ground_albedo = 0;
+    scene.set_sky(sky);
+    const Camera camera = camera_above(4, 0.5f);
+    const auto with = [&](AmbientLight kind) {
+        set(scene, kind, false);
+        return render(scene, camera, 4).rgb(1, 1).y;
+    };
+    // The shell about the upper half of the floor's directions faces down: R = ∫ (1 − cos A)/2 cos A dω / π = 1/2 − 1/3.
+    const float open = with(AmbientLight::none);
+    EXPECT_NEAR(open, albedo * 1000, 2);
+    EXPECT_NEAR(with(AmbientLight::directional) - open, albedo * albedo * 1000 / 6, 1);
+    EXPECT_NEAR(with(AmbientLight::constant) - open, albedo * albedo * 1000 / 2, 2);
+}
+
+TEST_F(Ambient, AnOpenPlaneKeepsTheWholeSkyAndAWallHidesItsShare) {
+    Scene scene;
+    const MaterialId grey = scene.add_material(lambert(glm::vec3(0.5f)));
+    add_floor(scene, 60, grey);
+    set_constant_sky(scene, 100);
+    Camera camera;
+    camera.position = {0, 3, 8};
+    camera.target = {0, 0, 0};
+    camera.vertical_fov_rad = glm::radians(60.0f);
+    set(scene, AmbientLight::none, true);
+    EXPECT_NEAR(render(scene, camera, 32, 4).rgb(16, 16).y, 50, 0.5f);
+    // A wall without end to the sides hides (1 − cos A)/2, A the elevation of its top.
+    const float height = 2;
+    add_shape_node(scene, Box{{-60, 0, -3}, {60, height, -2}}, grey);
+    const Picture picture = layers(scene, camera, 64, 32, {"ao", "position"});
+    const Image openness = layer(picture, "ao"), position = layer(picture, "position");
+    int compared = 0;
+    for (int y = 30; y < 60; y += 5) {
+        const glm::vec3 at = position.rgb(32, y);
+        if (at.y > 0.01f || at.z < -1.8f) continue;
+        const float expected = 0.5f * (1 + std::cos(std::atan2(height, at.z + 2)));
+        EXPECT_NEAR(openness.at(32, y), expected, 0.03f) << at.z;
+        EXPECT_NEAR(picture.image.rgb(32, y).y, 50 * expected, 2) << at.z;
+        ++compared;
+    }
+    EXPECT_GE(compared, 4);
+}
+
+TEST_F(Ambient, OcclusionLeavesLampsAlone) {
+    Scene scene;
+    const MaterialId grey = scene.add_material(lambert(glm::vec3(0.5f)));
+    add_floor(scene, 2, grey);
+    add_shape_node(scene, Box{{-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}}, grey);
+    add_point_light(scene, {1, 2, 1}, glm::vec3(100));
+    Camera camera;
+    camera.position = {0, 2, 4};
+    camera.target = {0, 0.3f, 0};
+    set(scene, AmbientLight::none, false);
+    const Image without = render(scene, camera, 24, 2);
+    set(scene, AmbientLight::none, true);
+    EXPECT_EQ(without.pixels, render(scene, camera, 24, 2).pixels);
+}
+
+TEST_F(Ambient, WhatHidesTheSkyReflectsItsShareOfTheShell) {
+    Scene scene;
+    const MaterialId grey = scene.add_material(lambert(glm::vec3(0.5f)));
+    add_floor(scene, 60, grey);
+    add_shape_node(scene, Box{{-60, 0, -3}, {60, 2, -2}}, grey);
+    set_constant_sky(scene, 100);
+    Camera camera;
+    camera.position = {0, 3, 8};
+    camera.target = {0, 0, 0};
+    set(scene, AmbientLight::directional, true);
+    const Picture picture = layers(scene, camera, 48, 16, {"ao"});
+    const float open = layer(picture, "ao").at(24, 30);
+    EXPECT_LT(open, 0.99f);
+    EXPECT_NEAR(picture.image.rgb(24, 30).y, 0.5f * 100 * (open + (1 - open) * 0.5f), 0.2f);
+}
+
+TEST_F(Ambient, IlluminanceIsWhatSensorsMeasureInBothEngines) {
+    Scene scene;
+    Material polished = lambert(glm::vec3(0.1f, 0.2f, 0.9f));
+    polished.model = MaterialModel::standard;
+    polished.metallic = 1;
+    polished.roughness = 0.3f;
+    polished.emission_nits = glm::vec3(50);
+    add_floor(scene, 4, scene.add_material(std::move(polished)));
+    add_point_light(scene, {0.4f, 1, 0.2f}, glm::vec3(300, 200, 100));
+    set_constant_sky(scene, 100);
+    const Camera camera = camera_above(5, 1);
+    constexpr int size = 8;
+    PathTracer tracer;
+    PathOptions path;
+    path.width = path.height = size;
+    path.samples_per_pixel = 256;
+    path.aovs = {"illuminance"};
+    ASSERT_TRUE(tracer.update(scene));
+    const auto truth = tracer.render(scene, camera, path);
+    ASSERT_TRUE(truth);
+    const Image here = layer(layers(scene, camera, size, 16, {"illuminance"}), "illuminance"), there = layer(*truth, "illuminance");
+    for (const glm::ivec2 pixel : {glm::ivec2(1, 2), glm::ivec2(4, 3), glm::ivec2(6, 6)})
+        scene.add_sensor({"s" + std::to_string(scene.sensors().size()), SensorType::illuminance, floor_point(pixel.x, pixel.y, size, 1), {0, 1, 0}, {}, {}});
+    const auto measured = renderer->measure(scene, {});
+    ASSERT_TRUE(measured);
+    for (const SensorReading& reading : *measured) {
+        const glm::ivec2 pixel((reading.position.x + 1) * size / 2, (reading.position.z + 1) * size / 2);
+        EXPECT_NEAR(units::luminance(glm::dvec3(here.rgb(pixel.x, pixel.y))), reading.value, 0.01 * reading.value) << pixel.x;
+        EXPECT_NEAR(units::luminance(glm::dvec3(there.rgb(pixel.x, pixel.y))), reading.value, 0.02 * reading.value) << pixel.x;
+    }
+}
+
+TEST_F(Ambient, FilteringTheSkyIsTimedApartFromFrames) {
+    Scene scene;
+    Sky sky;
+    sky.model = SkyModel::hosek;
+    scene.set_sky(sky);
+    RealtimeOptions options;
+    options.width = options.height = 4;
+    options.samples = 0;
+    options.frames_timed = 1;
+    RealtimeStatistics statistics;
+    ASSERT_TRUE(renderer->render(scene, Camera{}, options, &statistics));
+    ASSERT_EQ(statistics.sky_passes.size(), 3u);
+    EXPECT_GT(statistics.sky_gpu_ms, 0);
+}
+
+}  // namespace
+}  // namespace heliodon::tests
