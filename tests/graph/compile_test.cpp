@@ -214,6 +214,37 @@ TEST_F(FrameGraph, PutsExactlyTheBarriersThatAreNeeded) {
     EXPECT_EQ(result.final_states[0].state, compute_write);
 }
 
+TEST_F(FrameGraph, LetsPassesWaitTogetherSoThatThoseThatShareNothingRunSideBySide) {
+    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")),
+                      c = graph.create_image(square("c")), d = graph.create_image(square("d"));
+    graph.export_image(c);
+    graph.export_image(d);
+    writer("write a", a);
+    writer("write b", b);
+    filter("a to c", a, c);
+    filter("b to d", b, d);
+    const CompiledGraph result = compiled();
+    EXPECT_EQ(result.order[0].barriers.size(), 2u);
+    EXPECT_TRUE(result.order[1].barriers.empty());
+    EXPECT_EQ(result.order[2].barriers.size(), 4u) << "both inputs and both outputs";
+    EXPECT_TRUE(result.order[3].barriers.empty());
+}
+
+TEST_F(FrameGraph, WaitsForNothingBeforeItsLastUse) {
+    const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")),
+                      c = graph.create_image(square("c"));
+    graph.export_image(c);
+    writer("write a", a);
+    filter("a to b", a, b);
+    pass("b and a to c", [&](PassBuilder& p) {
+        p.read(b, Usage::sampled).read_write(a, Usage::storage_read_write).write(c, Usage::storage_write);
+    });
+    const CompiledGraph result = compiled();
+    EXPECT_EQ(barriers_of(result, 1, a).size(), 1u);
+    EXPECT_EQ(barriers_of(result, 2, a).size(), 1u) << "the pass before reads it";
+    EXPECT_EQ(barriers_of(result, 2, b).size(), 1u) << "the pass before writes it";
+}
+
 TEST_F(FrameGraph, PutsOneBarrierBeforeSeveralReadsInAllTheirStages) {
     const ImageHandle a = graph.create_image(square("a")), b = graph.create_image(square("b")),
                       c = graph.create_image(square("c"));

@@ -92,6 +92,43 @@ TEST_F(Execution, GivesTheRightPictureWithAliasedMemoryOverManyFrames) {
     }
 }
 
+TEST_F(Execution, RecordsOneGraphBesideOthersAndBothAreAsIfAlone) {
+    const auto chain = [&](int length, float first) {
+        graph = {};
+        std::vector<ImageHandle> images;
+        for (int i = 0; i < length; ++i) images.push_back(graph.create_image(square("step " + std::to_string(i))));
+        graph.export_image(images.back());
+        add_fill("fill", images[0], first);
+        for (int i = 1; i < length; ++i) add_sum("sum " + std::to_string(i), images[i - 1], images[i], 1.0f);
+        return images.back();
+    };
+    for (const bool poison : {false, true}) {
+        Executor shorter(device(), {.poison = poison}), longer(device(), {.poison = poison}), another(device());
+        const ImageHandle of_shorter = chain(3, 10.0f);
+        expect_ok(shorter.set_graph(graph));
+        const ImageHandle of_longer = chain(7, 20.0f);
+        expect_ok(longer.set_graph(graph));
+        const ImageHandle of_another = chain(2, 30.0f);
+        expect_ok(another.set_graph(graph));
+        for (int frame = 0; frame < 3; ++frame) {
+            auto commands = value_of(device().begin_commands("frame"));
+            expect_ok(longer.begin(commands));
+            expect_ok(shorter.execute(commands, nullptr, &longer));
+            expect_ok(another.execute(commands, nullptr, &longer));
+            longer.finish(commands);
+            expect_ok(longer.begin(commands));  // and once more, beside one that goes on after it is done
+            longer.finish(commands);
+            expect_ok(shorter.begin(commands));
+            expect_ok(longer.execute(commands, nullptr, &shorter));
+            shorter.finish(commands);
+            value_of(device().submit(std::move(commands)));
+        }
+        EXPECT_EQ(first_texel(shorter.image(of_shorter)), glm::vec4(12.0f));
+        EXPECT_EQ(first_texel(longer.image(of_longer)), glm::vec4(26.0f));
+        EXPECT_EQ(first_texel(another.image(of_another)), glm::vec4(31.0f));
+    }
+}
+
 TEST_F(Execution, PoisonsMemoryThatAPassForgetsToWrite) {
     const ImageHandle half = graph.create_image(square("half")), result = graph.create_image(square("result"));
     graph.export_image(result);

@@ -54,6 +54,24 @@ TEST_F(GiDynamic, AMovingLightAndAMovingObjectAreRightInTheNextFrame) {
     }
 }
 
+TEST_F(GiDynamic, WhatComputeFindsOfSurfacesBesideVoxelizationIsTheHardwaresPictureInTheNextFrame) {
+    Node lamp;
+    lamp.transform.translation = {-0.6f, 1.2f, 0.5f};
+    lamp.light = Light{.type = LightType::point, .intensity = glm::vec3(15), .radius_m = 0.1f};
+    scene.add_node(lamp);
+    change_settings(scene, [](RenderSettings& s) {
+        s.rasterizer = Rasterizer::compute, s.revoxelize = Revoxelize::always;
+        s.vct.shadows = true, s.vct.resolution = ConeResolution::half;
+    });
+    Renderer live = new_renderer();
+    frame(live, scene, camera);
+    place(2);
+    const auto next = frame(live, scene, camera);
+    EXPECT_EQ(difference(next, fresh_frame(scene, camera)), 0);
+    change_settings(scene, [](RenderSettings& s) { s.rasterizer = Rasterizer::hardware; });
+    EXPECT_LT(difference(next, fresh_frame(scene, camera)), 1e-3) << "rounding at edges";
+}
+
 TEST_F(GiDynamic, WhatMovesOutAppearsOrVanishesIsRightInTheNextFrame) {
     Renderer live = new_renderer();
     frame(live, scene, camera);
