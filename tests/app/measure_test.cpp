@@ -234,6 +234,24 @@ TEST_F(Probe, FalseColourShowsLuminanceByTheScaleAskedFor) {
     EXPECT_LT(brightness(1, 1), 0.01f);
 }
 
+TEST_F(Probe, FalseColourInLuxShowsWhatSensorsAtThePixelsMeasure) {
+    for (const char* engine : {"path", "realtime"}) {
+        const Ended ended = run({"render", "s.heliodon.json", "--engine", engine, "--size", "65x65", "--spp", "16", "-o", "p.png", "-o", "p.exr",
+                                 "-o", "q.exr", "--false-colour", "0:200:lux", "--aov", "illuminance", "--probe", "32,32", "--json"});
+        ASSERT_EQ(ended.code, 0) << ended.error;
+        const auto picture = read_picture(folder() / "p.png"), measured = read_picture(folder() / "p.exr");
+        ASSERT_TRUE(picture && measured);
+        EXPECT_GT(picture->image.width, 65) << "a legend beside it";
+        ASSERT_EQ(measured->layers.size(), 1u) << engine;
+        const double lux = json::parse(ended.output)["probes"][0]["illuminance_lux"];
+        EXPECT_NEAR(measured->layers[0].image.at(32, 32, 1), lux, 0.01 * lux) << engine;
+        EXPECT_EQ(measured->layers[0].image.at(0, 0, 1), 0) << "beside the floor";
+    }
+    ASSERT_EQ(run({"render", "s.heliodon.json", "--engine", "path", "--size", "8x8", "--spp", "1", "-o", "p.exr", "-o", "p.png", "--false-colour",
+                   "0:200:lux"}).code, 0);
+    EXPECT_TRUE(read_picture(folder() / "p.exr")->layers.empty()) << "nobody asked for it in the file";
+}
+
 TEST_F(Probe, AMetersExposureIsStoredAndFollowsTheLight) {
     const auto ev100 = [&](const char* intensity, const char* exposure) {
         const Ended ended = run({"render", "s.heliodon.json", "--engine", "path", "--size", "32x32", "--spp", "4", "-o", "p.exr", "--ev100",

@@ -301,6 +301,10 @@ const std::vector<BadFile>& bad_files() {
         {"ShadowVolumesOfNothing", R"("render": {"shadow_volumes": {"significant_px": 0}})",
          "$.render.shadow_volumes.significant_px: expected a number from 0.0001 to 10000, found 0"},
         {"ConeTracingNotAnObject", R"("render": {"vct": true})", "$.render.vct: expected an object, found true"},
+        {"AmbientLight", R"("render": {"ambient": "some"})",
+         "$.render.ambient: expected one of \"none\", \"constant\", \"directional\", found \"some\""},
+        {"AmbientOcclusion", R"("render": {"ambient_occlusion": 3})",
+         "$.render.ambient_occlusion: expected true, false or an object, found 3"},
         {"UnknownEffect", R"("render": {"vct": {"gloss": true}})",
          "$.render.vct.gloss: unknown key; expected diffuse, specular, refraction, shadows, ao, cones, "
          "resolution, filtering"},

@@ -372,6 +372,19 @@ TEST(SceneFile, ReadsSensorsAndSettings) {
     EXPECT_EQ(scene.render_settings().shadow_map_size, 1024);
 }
 
+TEST(SceneFile, ReadsLightWithoutGlobalIllumination) {
+    const RenderSettings plain = parsed(R"({"heliodon": 1})").render_settings();
+    EXPECT_EQ(plain.ambient, AmbientLight::none);
+    EXPECT_TRUE(plain.ambient_occlusion.on);
+    const RenderSettings off = parsed(R"({"heliodon": 1, "render": {"ambient": "constant", "ambient_occlusion": false}})").render_settings();
+    EXPECT_EQ(off.ambient, AmbientLight::constant);
+    EXPECT_FALSE(off.ambient_occlusion.on);
+    const RenderSettings near = parsed(R"({"heliodon": 1, "render": {"ambient": "directional", "ambient_occlusion":
+        {"reach_m": 2, "thickness_m": 0.5}}})").render_settings();
+    EXPECT_EQ(near.ambient, AmbientLight::directional);
+    EXPECT_EQ(near.ambient_occlusion, (AmbientOcclusionSettings{.on = true, .reach_m = 2, .thickness_m = 0.5f}));
+}
+
 TEST(SceneFile, ReadsEverySettingOfVoxelConeTracing) {
     const Scene plain = parsed(R"({"heliodon": 1})");
     EXPECT_EQ(plain.render_settings().vct, ConeTracingSettings{});
