@@ -197,6 +197,15 @@ void global_illumination_panel(Scene& scene) {
     if (edited) scene.set_render_settings(std::move(settings));
 }
 
+void sun_shadows_panel(Scene& scene) {
+    RenderSettings settings = scene.render_settings();
+    ShadowCascadeSettings& cascades = settings.shadow_cascades;
+    bool edited = named_choice("shadows of the sun", settings.sun_shadows, "cascades of maps\0volumes\0");
+    edited |= ImGui::SliderInt("cascades of its shadow", &cascades.count, 1, most_shadow_cascades, "%d", ImGuiSliderFlags_AlwaysClamp);
+    edited |= ImGui::SliderFloat("split (even, by ratio)", &cascades.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    if (edited) scene.set_render_settings(std::move(settings));
+}
+
 }  // namespace
 
 void draw_panels(Scene& scene, ViewState& view, const FrameReport& report) {
@@ -210,6 +219,7 @@ void draw_panels(Scene& scene, ViewState& view, const FrameReport& report) {
         if (ImGui::CollapsingHeader("Materials", ImGuiTreeNodeFlags_DefaultOpen)) materials_panel(scene);
         if (ImGui::CollapsingHeader("Global illumination", ImGuiTreeNodeFlags_DefaultOpen))
             global_illumination_panel(scene);
+        if (ImGui::CollapsingHeader("Shadows of the sun")) sun_shadows_panel(scene);
         if (ImGui::CollapsingHeader("Exposure and tone")) display_panel(scene);
         ImGui::PopItemWidth();
     }
