@@ -119,10 +119,14 @@ uint covered(Slice slice, ivec2 pixel, ConePlace place, float side, float offset
         const vec3 normal = unpack_direction(packed_place.y);
         const float front = angle_to(slice, offset_m, side);
         const float back = push.thickness_m > 0.0f ? angle_to(slice, offset_m + push.thickness_m * normalize(ray), side) : side * pi;
-        bits |= sectors_between(slice, front, back) | sectors_between(slice, front, angle_onward(slice, there, normal, from + step * ahead * half_step, half_step, front, side));
-        const vec3 along = there - before;
-        const vec2 rises = abs(vec2(dot(along, before_normal), dot(along, normal)));
-        if (before_seen && max(rises.x, rises.y) <= in_plane_sine * length(along)) bits |= sectors_between(slice, before_angle, front);
+        // The facets of a smooth surface hide nothing from each other.
+        if (dot(offset_m, place.geometric) > in_plane_sine * sqrt(distance2)) {
+            const float onward = angle_onward(slice, there, normal, from + step * ahead * half_step, half_step, front, side);
+            bits |= sectors_between(slice, front, back) | sectors_between(slice, front, onward);
+            const vec3 along = there - before;
+            const vec2 rises = abs(vec2(dot(along, before_normal), dot(along, normal)));
+            if (before_seen && max(rises.x, rises.y) <= in_plane_sine * length(along)) bits |= sectors_between(slice, before_angle, front);
+        }
         before = there;
         before_normal = normal;
         before_angle = front;
