@@ -22,7 +22,8 @@ std::uint32_t FrameRenderer::choose_volume_light() const {
 }
 
 Result<void> FrameRenderer::prepare_volumes(const FrameSample& sample) {
-    wanted_.volumes = volume_light_ != shading::no_light && !sample.measures;
+    if (sample.measures) return {};  // no picture
+    wanted_.volumes = volume_light_ != shading::no_light;
     wanted_.maps_after_volumes = wanted_.volumes && (inputs_.has_tested || inputs_.has_blended);
     if (!wanted_.volumes) return {};
     return volumes_.update(gpu_scene_, inputs_, lights_[volume_light_].axis, settings_.shadow_volumes, sample.volumes_behind);

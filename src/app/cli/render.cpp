@@ -202,18 +202,24 @@ public:
             sky_passes.push_back({{"name", pass.name}, {"gpu_ms", pass.gpu_ms}});
             summary += fmt::format("\n  {:<28}{:10.3f} ms", pass.name, pass.gpu_ms);
         }
-        return Rendered{std::move(*picture),
-                        {{"gpu_ms_total", numbers.gpu_ms_total},
-                         {"passes", std::move(passes)},
-                         {"cpu_ms", numbers.cpu_ms},
-                         {"sky_gpu_ms", numbers.sky_gpu_ms},
-                         {"sky_passes", std::move(sky_passes)},
-                         {"device", numbers.device},
-                         {"gpu_memory_bytes", numbers.gpu_memory_bytes},
-                         {"vertex_bytes", numbers.vertex_bytes},
-                         {"peak_rss_bytes", peak_rss_bytes()}},
-                        std::move(summary),
-                        interrupted()};
+        Rendered rendered{std::move(*picture),
+                          {{"gpu_ms_total", numbers.gpu_ms_total},
+                           {"passes", std::move(passes)},
+                           {"cpu_ms", numbers.cpu_ms},
+                           {"sky_gpu_ms", numbers.sky_gpu_ms},
+                           {"sky_passes", std::move(sky_passes)},
+                           {"device", numbers.device},
+                           {"gpu_memory_bytes", numbers.gpu_memory_bytes},
+                           {"vertex_bytes", numbers.vertex_bytes},
+                           {"peak_rss_bytes", peak_rss_bytes()}},
+                          std::move(summary),
+                          interrupted()};
+        if (const auto& volumes = numbers.shadow_volumes)
+            rendered.statistics["shadow_volumes"] = {{"triangles", volumes->caps},
+                                                     {"edges", volumes->edges},
+                                                     {"sides", volumes->sides},
+                                                     {"rebuilt_ms", volumes->build_ms}};
+        return rendered;
     }
 
     ProbeEngine probes(const Scene& scene) override {
