@@ -1,4 +1,5 @@
-// Shadow volumes: sharp shadows of the sun, the same as rays find them.
+// Shadow volumes: sharp shadows of the sun, the same as rays find them. With HELIODON_FULL set, in pictures of full size
+// and with the map's own size.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -13,6 +14,9 @@
 
 namespace heliodon::tests {
 namespace {
+
+const bool full_size = std::getenv("HELIODON_FULL") != nullptr;
+const int width = full_size ? 1024 : 192, height = full_size ? 768 : 144;
 
 /// Every surface white, opaque, faceted and lit on both sides, every shape its tessellation: what reaches a pixel then
 /// depends on the sun's visibility alone.
@@ -38,7 +42,7 @@ void make_judgeable(Scene& scene, SunShadows shadows = SunShadows::volumes) {
     RenderSettings settings = scene.render_settings();
     settings.gi = "none";
     settings.sun_shadows = shadows;
-    settings.shadow_volumes.map_size = 256;
+    if (!full_size) settings.shadow_volumes.map_size = 256;
     scene.set_render_settings(settings);
 }
 
@@ -95,23 +99,24 @@ struct Difference {
 
 class ShadowVolumesTest : public RealtimeTest {
 protected:
-    Difference difference(const Scene& scene, const Camera& camera, int width, int height, RealtimeStatistics* statistics = nullptr) {
+    /// In a picture of `columns` × `rows` pixels.
+    Difference difference(const Scene& scene, const Camera& camera, int columns, int rows, RealtimeStatistics* statistics = nullptr) {
         RealtimeOptions options;
-        options.width = width;
-        options.height = height;
+        options.width = columns;
+        options.height = rows;
         options.samples = 1;
         options.environment = false;
         const Image image = render(scene, camera, options, statistics).image;
         const Truth truth(scene);
-        const auto frame = realtime::camera_frame(camera, scene.bounds(), width, height, glm::vec2(0));
+        const auto frame = realtime::camera_frame(camera, scene.bounds(), columns, rows, glm::vec2(0));
         std::vector<Truth::Pixel> seen;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) seen.push_back(truth.at(frame, x, y));
+        for (int y = 0; y < rows; ++y)
+            for (int x = 0; x < columns; ++x) seen.push_back(truth.at(frame, x, y));
         Difference result;
         const bool lists = std::getenv("HELIODON_TEST_LIST") != nullptr;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                const Truth::Pixel pixel = seen[y * width + x];
+        for (int y = 0; y < rows; ++y)
+            for (int x = 0; x < columns; ++x) {
+                const Truth::Pixel pixel = seen[y * columns + x];
                 if (pixel == Truth::Pixel::background || pixel == Truth::Pixel::averted) continue;
                 ++result.judged;
                 result.shadowed += pixel == Truth::Pixel::shadowed;
@@ -120,8 +125,8 @@ protected:
                 ++result.different;
                 bool inside = true;
                 for (int i = 0; i < 9; ++i) {
-                    const int u = std::clamp(x + i % 3 - 1, 0, width - 1), v = std::clamp(y + i / 3 - 1, 0, height - 1);
-                    inside = inside && seen[v * width + u] == pixel;
+                    const int u = std::clamp(x + i % 3 - 1, 0, columns - 1), v = std::clamp(y + i / 3 - 1, 0, rows - 1);
+                    inside = inside && seen[v * columns + u] == pixel;
                 }
                 result.inside += inside;
                 if (lists) std::cout << x << ' ' << y << (lit ? " lit" : " shadowed") << (inside ? " inside\n" : "\n");
@@ -144,6 +149,9 @@ Camera camera_from(glm::vec3 position, glm::vec3 target, float fov_rad = 0.8f) {
 /// Boxes and spheres on and over a floor.
 Scene boxes_and_spheres() {
     Scene scene;
+    ConvertSettings convert;
+    convert.shape_segments = 48;
+    scene.set_convert_settings(convert);
     Material named = lambert(glm::vec3(0.8f));
     named.name = "white";
     const MaterialId white = scene.add_material(named);
@@ -163,9 +171,9 @@ Scene boxes_and_spheres() {
 
 TEST_F(ShadowVolumesTest, BoxesAndSpheresCastTheShadowsThatRaysFind) {
     const Scene scene = boxes_and_spheres();
-    const Difference d = difference(scene, camera_from({-2, 3.2f, -4}, {-0.4f, 0.3f, -0.4f}), 256, 192);
+    const Difference d = difference(scene, camera_from({-2, 3.2f, -4}, {-0.4f, 0.3f, -0.4f}), width, height);
     EXPECT_LE(d.share(), 1e-3);
-    EXPECT_GT(d.shadowed, 3000);
+    EXPECT_GT(d.shadowed, width * height / 20);
 }
 
 TEST_F(ShadowVolumesTest, TheCameraMayStandInAVolumeAndHaveAFarPlane) {
@@ -173,9 +181,9 @@ TEST_F(ShadowVolumesTest, TheCameraMayStandInAVolumeAndHaveAFarPlane) {
     // Behind the first box, where the sun does not reach the camera.
     Camera camera = camera_from({-0.5f, 0.25f, -0.35f}, {-3, 0.1f, -2}, 1.4f);
     camera.far_m = 8;
-    const Difference d = difference(scene, camera, 256, 192);
+    const Difference d = difference(scene, camera, width, height);
     EXPECT_LE(d.share(), 1e-3);
-    EXPECT_GT(d.shadowed, 3000);
+    EXPECT_GT(d.shadowed, width * height / 20);
 }
 
 TEST_F(ShadowVolumesTest, VolumesBehindLitTrianglesCastWhatVolumesBehindAllDoWithFewerSides) {
@@ -254,9 +262,9 @@ TEST_F(ShadowVolumesTest, OpenInsideOutAndNonManifoldMeshesCastTheirShadows) {
     add_triangles(scene, white, {{0, 0.5f, 1}, {0.8f, 0.5f, 1.8f}, {0, 0.9f, 1.8f}, {0, 0.9f, 1}, {0.8f, 0.5f, 1.1f}, {0.6f, 0.5f, 1.9f}});
     add_sun(scene, {0.35f, -0.8f, -0.25f}, glm::vec3(50000));
     make_judgeable(scene);
-    const Difference d = difference(scene, camera_from({0.5f, 5, 4.5f}, {0, 0.2f, -0.2f}), 256, 192);
+    const Difference d = difference(scene, camera_from({0.5f, 5, 4.5f}, {0, 0.2f, -0.2f}), width, height);
     EXPECT_LE(d.share(), 1e-3);
-    EXPECT_GT(d.shadowed, 1000);
+    EXPECT_GT(d.shadowed, width * height / 50);
 }
 
 TEST_F(ShadowVolumesTest, VolumesAreMadeAnewWhereSurfacesMoveAndNotForTheCamera) {
@@ -339,17 +347,18 @@ std::optional<Scene> judgeable(const char* name, std::optional<glm::vec3> direct
 TEST_F(ShadowVolumesTest, ACarInTheAfternoonSunCastsTheShadowsThatRaysFind) {
     auto scene = judgeable("car-day.heliodon.json");
     if (!scene) GTEST_SKIP() << "shared data missing";
-    const Difference d = difference(*scene, first_camera(*scene), 240, 180);
+    const Difference d = difference(*scene, first_camera(*scene), width, height);
     EXPECT_LE(d.share(), 1e-3);
-    EXPECT_GT(d.shadowed, 2000);
+    EXPECT_GT(d.shadowed, width * height / 30);
 }
 
 TEST_F(ShadowVolumesTest, ASunnyRoomHasTheShadowsThatRaysFind) {
+    if (!full_size) GTEST_SKIP() << "at full size only";
     auto scene = judgeable("natus.heliodon.json", glm::normalize(glm::vec3(0.3f, -0.45f, -0.85f)));
     if (!scene) GTEST_SKIP() << "shared data missing";
-    const Difference d = difference(*scene, first_camera(*scene), 256, 192);
+    const Difference d = difference(*scene, first_camera(*scene), width, height);
     EXPECT_LE(d.share(), 1e-3);
-    EXPECT_GT(d.shadowed, 3000);
+    EXPECT_GT(d.shadowed, width * height / 20);
 }
 
 }  // namespace
