@@ -76,6 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongUsage{"BenchTest", {"bench", "natus", "--tests", "4,6"}, "\"6\""},
                     WrongUsage{"BenchFramesZero", {"bench", "natus", "--frames", "0"}, "--frames"},
                     WrongUsage{"BenchTimeNegative", {"bench", "natus", "--path-seconds", "-1"}, "--path-seconds"},
+                    WrongUsage{"BenchFlyMode", {"bench", "fly", "--tests", "simple,dust"}, "\"dust\""},
                     WrongUsage{"BenchSeries", {"bench", "cost", "--series", "lights,dust"}, "\"dust\""},
                     WrongUsage{"BenchGridsOfCost", {"bench", "cost", "--voxels", "64,128"}, "--voxels"},
                     WrongUsage{"BenchSceneOfCost", {"bench", "cost", "--scene", "s.heliodon.json"}, "--scene"},
