@@ -594,8 +594,8 @@ TEST(SceneOverride, ErrorsNameTheOverride) {
     const auto error = [](std::string path, std::string value) { return error_of(overridable, {{path, value}}); };
     EXPECT_EQ(error("render.voxel", "2"),
               "--set render.voxel=2: unknown key; expected gi, voxels, cascades, bounces, revoxelize, voxelizer, "
-              "rasterizer, integrator, vct, tonemap, exposure, white_balance, shadow_map_size, sun_shadows, shadow_cascades, "
-              "shadow_volumes");
+              "rasterizer, integrator, vct, ambient, ambient_occlusion, tonemap, exposure, white_balance, shadow_map_size, sun_shadows, "
+              "shadow_cascades, shadow_volumes");
     EXPECT_EQ(error("render.vct.cones", "10"), "--set render.vct.cones=10: expected a multiple of 9, found 10");
     EXPECT_EQ(error("rendr.voxels", "2").substr(0, 33), "--set rendr.voxels=2: unknown key");
     EXPECT_EQ(error("nodes.bulb.light.intensity_cd", "bright"),
