@@ -169,6 +169,35 @@ TEST_F(Ambient, IlluminanceIsWhatSensorsMeasureInBothEngines) {
     }
 }
 
+TEST_F(Ambient, IlluminanceHasTheBouncesThatConesFind) {
+    Scene scene;
+    const MaterialId white = scene.add_material(lambert(glm::vec3(0.7f)));
+    add_floor(scene, 2, white);
+    add_shape_node(scene, Box{{-2, 0, -2}, {2, 2, -1.5f}}, white);
+    add_point_light(scene, {0.4f, 1, 0.2f}, glm::vec3(100));
+    RenderSettings settings = scene.render_settings();
+    settings.gi = "vct";
+    settings.voxels = 32;
+    scene.set_render_settings(std::move(settings));
+    constexpr int size = 8;
+    RealtimeOptions options;
+    options.width = options.height = size;
+    options.samples = 8;
+    options.gi = "vct";
+    options.aovs = {"illuminance"};
+    const Picture picture = render(scene, camera_above(5, 1), options);
+    const Image lux = layer(picture, "illuminance");
+    for (const glm::ivec2 pixel : {glm::ivec2(1, 2), glm::ivec2(4, 4)})
+        scene.add_sensor({"s" + std::to_string(scene.sensors().size()), SensorType::illuminance, floor_point(pixel.x, pixel.y, size, 1), {0, 1, 0}, {}, {}});
+    const auto measured = renderer->measure(scene, options);
+    ASSERT_TRUE(measured);
+    for (const SensorReading& reading : *measured) {
+        const glm::ivec2 pixel((reading.position.x + 1) * size / 2, (reading.position.z + 1) * size / 2);
+        EXPECT_NEAR(lux.at(pixel.x, pixel.y, 1), reading.value, 0.02 * reading.value) << pixel.x;
+        EXPECT_NEAR(picture.image.at(pixel.x, pixel.y, 1), lux.at(pixel.x, pixel.y, 1) * 0.7f / std::numbers::pi_v<float>, 0.002 * reading.value);
+    }
+}
+
 TEST_F(Ambient, FilteringTheSkyIsTimedApartFromFrames) {
     Scene scene;
     Sky sky;
