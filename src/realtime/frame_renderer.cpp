@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <map>
 
 #include "gpu/bindless_textures.h"
@@ -28,7 +27,6 @@ constexpr std::uint32_t fragments_per_pixel = 4;  // room for blended surfaces t
 
 }  // namespace
 
-std::uint32_t instance_capacity(std::uint32_t instances) { return std::bit_ceil(std::max(instances, 16u)); }
 
 FrameRenderer::FrameRenderer(gpu::Device& device, const std::string& shader_directory)
     : device_(device),

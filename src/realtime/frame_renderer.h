@@ -53,9 +53,6 @@ struct FrameSample {
     float texture_gradient_scale = 1.0f;
 };
 
-/// Instances that there is room for where there are so many.
-[[nodiscard]] std::uint32_t instance_capacity(std::uint32_t instances);
-
 struct PassTimes {
     std::vector<PassTime> passes;
     double total_ms = 0;
@@ -170,6 +167,7 @@ private:
     [[nodiscard]] ShadowPlan plan_shadow_maps() const;
     /// The brightest directional light, if volumes are wanted; or no_light.
     [[nodiscard]] std::uint32_t choose_volume_light() const;
+    [[nodiscard]] std::optional<std::uint32_t> light_without_maps(const FrameSample& sample) const;
     [[nodiscard]] Result<void> prepare_volumes(const FrameSample& sample);
     /// What the frame's sample needs to know of them.
     void place_volumes(shading::FrameData& frame, std::size_t batch);

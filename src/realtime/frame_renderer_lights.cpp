@@ -105,6 +105,7 @@ void FrameRenderer::fit_shadow_maps(const Camera& camera, const FrameSample& sam
         if (sample.cone_traced) detail->voxel_m = std::ldexp(longest / static_cast<float>(settings_.voxels), 1 - settings_.cascades);
         if (!shadow_maps_fit_picture_ || plan_.batches.size() > 1) detail.reset();
     }
+    cascades.light_without_maps = light_without_maps(sample);
     if (detail == shadow_detail_ && cascades == cascades_) return;
     shadow_detail_ = detail;
     cascades_ = std::move(cascades);

@@ -21,12 +21,21 @@ std::uint32_t FrameRenderer::choose_volume_light() const {
     return chosen;
 }
 
+/// Pixels of a picture know what volumes say; all else asks maps.
+std::optional<std::uint32_t> FrameRenderer::light_without_maps(const FrameSample& sample) const {
+    const bool pixels_alone = !sample.cone_traced && !sample.measures && sample.aov == shading::frame_aov_none;
+    const bool volumes_alone = !gpu_scene_.has_tested() && !gpu_scene_.has_blended();
+    if (volume_light_ == shading::no_light || !pixels_alone || !volumes_alone) return std::nullopt;
+    return volume_light_;
+}
+
 Result<void> FrameRenderer::prepare_volumes(const FrameSample& sample) {
     if (sample.measures) return {};  // no picture
     wanted_.volumes = volume_light_ != shading::no_light;
     wanted_.maps_after_volumes = wanted_.volumes && (inputs_.has_tested || inputs_.has_blended);
     if (!wanted_.volumes) return {};
-    return volumes_.update(gpu_scene_, inputs_, lights_[volume_light_].axis, settings_.shadow_volumes, sample.volumes_behind);
+    return volumes_.update(gpu_scene_, inputs_, lights_[volume_light_].axis, settings_.shadow_volumes,
+                           sample.volumes_behind);
 }
 
 void FrameRenderer::place_volumes(shading::FrameData& frame, std::size_t batch) {
@@ -42,7 +51,8 @@ void FrameRenderer::place_volumes(shading::FrameData& frame, std::size_t batch) 
     volumes_.inputs().world_to_clip = glm::transpose(rows);
 }
 
-Result<graph::ImageHandle> FrameRenderer::add_shadow_volumes(graph::Graph& graph, VkExtent2D extent, passes::DrawLists lists) {
+Result<graph::ImageHandle> FrameRenderer::add_shadow_volumes(graph::Graph& graph, VkExtent2D extent,
+                                                             passes::DrawLists lists) {
     if (!lists.commands) {
         auto culled = passes::add_cull(graph, pipelines_, inputs_, {1, wanted_.instance_capacity, false}, camera_view_,
                                        camera_view_count_);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -18,6 +20,11 @@
 #include "scene/scene.h"
 
 namespace heliodon::realtime {
+
+/// Instances that there is room for where there are so many.
+[[nodiscard]] constexpr std::uint32_t instance_capacity(std::uint32_t instances) {
+    return std::bit_ceil(std::max(instances, 16u));
+}
 
 /// A storage buffer that grows, keeping its contents.
 class GrowingBuffer {

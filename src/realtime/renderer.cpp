@@ -171,7 +171,9 @@ struct RealtimeRenderer::State {
         // without. A CPU overlaps none.
         const bool overlaps = !device->info().is_cpu;
         const int count = warm_up_frames + (overlaps ? 2 : 1) * options.frames_timed;
+        std::uint64_t shadow_maps = 0;
         for (int i = 0; i < count; ++i) {
+            if (i == warm_up_frames) shadow_maps = frames->shadow_maps_drawn();
             FrameSample sample = still_sample(options, i, count);
             sample.timed_whole = overlaps && i >= warm_up_frames && (i - warm_up_frames) % 2 == 1;
             sample.jitter_shadows = false;
@@ -190,6 +192,7 @@ struct RealtimeRenderer::State {
             if (sample.timed_whole || !overlaps) series.add_whole(times, cpu.count());
         }
         series.write(statistics);
+        statistics.shadow_maps_drawn = frames->shadow_maps_drawn() - shadow_maps;
         return time_sky(options.frames_timed, statistics);
     }
 
@@ -276,6 +279,7 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
     if (auto done = frames.resize(options.width, options.height, false); !done) return tl::unexpected(done.error());
 
     TimeSeries series;
+    const std::uint64_t shadow_maps = frames.shadow_maps_drawn();
     const bool time_still = statistics && options.frames_timed <= 0;
     const AovKind radiance{"", shading::frame_aov_none, 3, false, true, false, true};
     Picture picture;
@@ -288,6 +292,7 @@ Result<Picture> RealtimeRenderer::render(const Scene& scene, const Camera& camer
     picture.has_ev100 = true;
     if (statistics) {
         *statistics = {};
+        statistics->shadow_maps_drawn = frames.shadow_maps_drawn() - shadow_maps;
         if (time_still) series.write(*statistics);
         else if (auto done = state_->time_frames(camera, options, *statistics); !done) return tl::unexpected(done.error());
         statistics->device = state_->device->info().name;

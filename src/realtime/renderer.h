@@ -62,6 +62,7 @@ struct RealtimeStatistics {
     std::string device;
     std::uint64_t gpu_memory_bytes = 0;
     std::uint64_t vertex_bytes = 0;  ///< of them, attributes of vertices (convert.vertex_precision)
+    std::uint64_t shadow_maps_drawn = 0;  ///< in the frames that were timed, or in all of the still picture
     int draw_calls = 0;      ///< indirect draws of one frame, whatever the number of nodes
     std::optional<ShadowVolumeStatistics> shadow_volumes;  ///< render.sun_shadows
     int light_batches = 0;   ///< lights whose shadow maps do not fit together are lit in several batches

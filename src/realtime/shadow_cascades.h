@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "realtime/shadow_detail.h"
@@ -23,6 +24,7 @@ struct ShadowCascades {
     std::vector<ShadowSlice> slices;  ///< at most `count`, narrowest first; views without one have no map
     bool reaches_all = false;         ///< the last slice ends behind everything that the camera sees
     bool whole_scene = true;          ///< more than the camera looks at shadows: voxels, sensors
+    std::optional<std::uint32_t> light_without_maps;  ///< in the light table: its shadows are known otherwise
     bool operator==(const ShadowCascades&) const = default;
 };
 

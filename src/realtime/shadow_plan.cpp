@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/units.h"
+#include "realtime/light_axes.h"
 
 namespace heliodon::realtime {
 namespace {
@@ -42,17 +43,7 @@ std::uint32_t view_count(const LightData& light, int cascades) {
     return needs_cube(light) ? 6 : 1;
 }
 
-struct Axes {
-    glm::vec3 right, up, forward;
-};
-
-Axes axes_along(glm::vec3 forward) {
-    const glm::vec3 helper = std::abs(forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    const glm::vec3 right = glm::normalize(glm::cross(forward, helper));
-    return {right, glm::cross(right, forward), forward};
-}
-
-Axes face_axes(std::uint32_t face) {
+LightAxes face_axes(std::uint32_t face) {
     static constexpr std::array<glm::vec3, 6> forward{glm::vec3(1, 0, 0),  glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0),
                                                       glm::vec3(0, -1, 0), glm::vec3(0, 0, 1),  glm::vec3(0, 0, -1)};
     return axes_along(forward[face]);
@@ -63,7 +54,7 @@ glm::mat4 from_rows(glm::vec4 x, glm::vec4 y, glm::vec4 z, glm::vec4 w) { return
 /// The row that gives dot(axis, p − origin).
 glm::vec4 offset_row(glm::vec3 axis, glm::vec3 origin) { return {axis, -glm::dot(axis, origin)}; }
 
-ShadowViewData perspective_view(const Axes& axes, glm::vec3 origin, float tangent, float near_m, glm::vec2 jitter_ndc) {
+ShadowViewData perspective_view(const LightAxes& axes, glm::vec3 origin, float tangent, float near_m, glm::vec2 jitter_ndc) {
     ShadowViewData view{};
     view.kind = shading::shadow_kind_perspective;
     view.origin = origin;
@@ -77,22 +68,8 @@ ShadowViewData perspective_view(const Axes& axes, glm::vec3 origin, float tangen
     return view;
 }
 
-/// The scene in a light's axes, with a margin of a thousandth, which keeps flat scenes from a range of zero and what lies on
-/// the box inside it.
-Bounds seen_along(const Axes& axes, const Bounds& scene) {
-    Bounds seen;
-    const Bounds bounds = scene.empty() ? Bounds{glm::vec3(-1), glm::vec3(1)} : scene;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
-                          corner & 4 ? bounds.max.z : bounds.min.z);
-        seen.include({glm::dot(p, axes.right), glm::dot(p, axes.up), glm::dot(p, axes.forward)});
-    }
-    const float margin = 1e-3f * std::max(seen.diagonal(), 1e-6f);
-    return {seen.min - margin, seen.max + margin};
-}
-
 /// Of a rectangle across the light, as deep as the scene.
-ShadowViewData orthographic_view(const Axes& axes, const Bounds& seen, glm::vec2 center, glm::vec2 half, glm::vec2 jitter_ndc) {
+ShadowViewData orthographic_view(const LightAxes& axes, const Bounds& seen, glm::vec2 center, glm::vec2 half, glm::vec2 jitter_ndc) {
     ShadowViewData view{};
     view.kind = shading::shadow_kind_orthographic;
     view.origin = axes.right * center.x + axes.up * center.y + axes.forward * seen.min.z;
@@ -109,7 +86,7 @@ ShadowViewData orthographic_view(const Axes& axes, const Bounds& seen, glm::vec2
 
 ShadowViewData directional_view(const ShadowPlan::View& source, const LightData& light, const Bounds& scene, glm::vec2 jitter_ndc,
                                 const ShadowCascades& cascades) {
-    const Axes axes = axes_along(light.axis);
+    const LightAxes axes = axes_along(light.axis);
     const Bounds seen = seen_along(axes, scene);
     if (source.whole_scene) {
         const float guard = 1.0f + 2.0f * guard_texels / static_cast<float>(source.place.size);
@@ -125,7 +102,7 @@ ShadowViewData directional_view(const ShadowPlan::View& source, const LightData&
 }
 
 /// Of perspective_view().
-ShadowFrustum perspective_frustum(const Axes& axes, glm::vec3 origin, float tangent) {
+ShadowFrustum perspective_frustum(const LightAxes& axes, glm::vec3 origin, float tangent) {
     const auto through = [&](glm::dvec3 inward) { return glm::dvec4(inward, -glm::dot(inward, glm::dvec3(origin))); };
     const glm::dvec3 forward = double(tangent) * glm::dvec3(axes.forward);
     ShadowFrustum frustum;
@@ -246,6 +223,7 @@ std::size_t slices_worth_a_map(const LightData& light, const Bounds& scene, cons
 /// How often a directional light's map may be halved at least; `slices` have one.
 std::uint32_t least_halvings(const ShadowPlan::View& view, const LightData& light, const Bounds& scene, const MapSizes& sizes,
                              const ShadowBudget& budget, const ShadowDetail* detail, const ShadowCascades& cascades, std::size_t slices) {
+    if (cascades.light_without_maps == view.light) return no_map;
     if (!view.whole_scene) {
         if (view.face >= slices) return no_map;
         if (!detail) return 0;

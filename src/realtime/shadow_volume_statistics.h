@@ -5,8 +5,8 @@
 
 namespace heliodon {
 
-/// The triangles that have shadow volumes: those and only those that the light reaches; these and all with which there are
-/// fewer silhouettes; or all that face it. The shadows are the same.
+/// The triangles that have shadow volumes: those and only those that the light reaches; these and all with which there
+/// are fewer silhouettes; or all that face it. The shadows are the same.
 enum class VolumesBehind : std::uint8_t { lit, fewest, all };
 
 /// What the shadow volumes of one light are made of, as they were last made.

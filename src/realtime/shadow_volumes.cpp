@@ -5,11 +5,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <set>
 
 #include "convert/mesh_edges.h"
-#include "realtime/frame_renderer.h"
 
 namespace heliodon::realtime {
 namespace {
@@ -129,46 +127,42 @@ Result<void> ShadowVolumes::list_casters(const GpuScene& scene) {
         edges += edge_counts_[instance.geometry];
     }
     // Vertices of draws count three times as many.
-    if (std::max(triangles, edges) > 0xffffffffull / 3) return fail("render.sun_shadows", "more triangles than volumes can number");
+    if (std::max(triangles, edges) > 0xffffffffull / 3)
+        return fail("render.sun_shadows", "more triangles than volumes can number");
     if (auto done = upload(device_, ranges_, ranges); !done) return done;
     if (auto done = upload(device_, first_triangles_, first_triangles); !done) return done;
     if (auto done = states_.reserve(device_, triangles * sizeof(std::uint32_t), 0); !done) return done;
     if (auto done = tallies_.reserve(device_, ranges.size() * sizeof(shading::CasterTally), 0); !done) return done;
-    casters_ = {&ranges_.buffer(),  &first_triangles_.buffer(), &edges_.buffer(), &edge_uses_.buffer(), &states_.buffer(),
-                static_cast<std::uint32_t>(ranges.size()), static_cast<std::uint32_t>(triangles),
+    casters_ = {&ranges_.buffer(),
+                &first_triangles_.buffer(),
+                &edges_.buffer(),
+                &edge_uses_.buffer(),
+                &states_.buffer(),
+                static_cast<std::uint32_t>(ranges.size()),
+                static_cast<std::uint32_t>(triangles),
                 static_cast<std::uint32_t>(edges)};
     return {};
 }
 
 ShadowVolumes::View ShadowVolumes::view_of(const Bounds& bounds, glm::vec3 sun) {
-    View view;
-    view.forward = glm::normalize(glm::dvec3(sun));
-    const glm::dvec3 helper = std::abs(view.forward.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    view.right = glm::normalize(glm::cross(view.forward, helper));
-    view.up = glm::cross(view.right, view.forward);
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
-                           corner & 4 ? bounds.max.z : bounds.min.z);
-        const glm::dvec3 local(glm::dot(p, view.right), glm::dot(p, view.up), glm::dot(p, view.forward));
-        low = glm::min(low, local);
-        high = glm::max(high, local);
-    }
-    // A margin of a thousandth keeps flat scenes from a range of zero and what lies on the box inside it.
-    const double margin = 1e-3 * std::max(glm::length(high - low), 1e-6);
-    view.edge_m = std::max(high.x - low.x, high.y - low.y) + 2 * margin;
+    View view{axes_along(sun)};
+    const Bounds seen = seen_along(view.axes, bounds);
+    const glm::dvec3 low(seen.min), high(seen.max);
+    view.edge_m = std::max(high.x - low.x, high.y - low.y);
     view.left = 0.5 * (low.x + high.x - view.edge_m);
     view.top = 0.5 * (low.y + high.y + view.edge_m);
-    view.near_m = low.z - margin;
-    view.range_m = high.z - low.z + 2 * margin;
+    view.near_m = low.z;
+    view.range_m = high.z - low.z;
     return view;
 }
 
 glm::mat4 ShadowVolumes::View::world_to_clip(std::uint32_t round, Part part) const {
     const double half = std::ldexp(edge_m, -static_cast<int>(round) - 1);
     const double x = left + (2 * part.x + 1) * half, y = top - (2 * part.y + 1) * half;
-    return glm::transpose(glm::mat4(glm::dmat4(glm::dvec4(right, -x) / half, glm::dvec4(up, -y) / half,
-                                               glm::dvec4(-forward, near_m + range_m) / range_m, glm::dvec4(0, 0, 0, 1))));
+    const glm::dvec3 right(axes.right), up(axes.up), forward(axes.forward);
+    return glm::transpose(
+        glm::mat4(glm::dmat4(glm::dvec4(right, -x) / half, glm::dvec4(up, -y) / half,
+                             glm::dvec4(-forward, near_m + range_m) / range_m, glm::dvec4(0, 0, 0, 1))));
 }
 
 Result<void> ShadowVolumes::build_map_graph(std::uint32_t size) {
@@ -181,7 +175,8 @@ Result<void> ShadowVolumes::build_map_graph(std::uint32_t size) {
         map_buffers_ = {graph.import_buffer({"caster states"}), graph.import_buffer({"lit map header"})};
         graph.export_buffer(map_buffers_.states);
         graph.export_buffer(map_buffers_.header);
-        if (auto done = passes::add_lit_map(graph, pipelines_, scene_, casters_, map_buffers_, view_.buffer(), part_, size, capacity);
+        if (auto done = passes::add_lit_map(graph, pipelines_, scene_, casters_, map_buffers_, view_.buffer(), part_,
+                                            size, capacity);
             !done)
             return done;
         if (auto done = map_executor_.set_graph(graph); !done) return done;

@@ -10,6 +10,7 @@
 #include "passes/shadow_volumes/lit_map.h"
 #include "passes/shadow_volumes/shadow_volumes.h"
 #include "realtime/gpu_scene.h"
+#include "realtime/light_axes.h"
 #include "realtime/shadow_volume_statistics.h"
 
 namespace heliodon::realtime {
@@ -44,7 +45,7 @@ private:
     };
     /// What the sun sees of the scene: a square, and how far it reaches.
     struct View {
-        glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
+        LightAxes axes;
         double left = 0, top = 0, edge_m = 1, near_m = 0, range_m = 1;
         [[nodiscard]] glm::mat4 world_to_clip(std::uint32_t round, Part part) const;
     };
@@ -73,8 +74,9 @@ private:
     std::vector<std::pair<std::uint32_t, std::uint64_t>> listed_edges_;  // geometry, revision
     std::vector<std::uint32_t> edge_tables_, edge_counts_;               // by geometry
     GrowingBuffer ranges_{"casters", 0}, first_triangles_{"first triangles", 0}, edges_{"caster edges", 0},
-        edge_uses_{"caster edge uses", 0}, states_{"caster states", 0}, header_{"lit map header", 0}, view_{"lit map view", 0},
-        weights_{"join weights", 0}, tallies_{"caster tallies", 0}, sides_{"volume sides", 0}, caps_{"volume caps", 0}, draws_{"volume draws", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
+        edge_uses_{"caster edge uses", 0}, states_{"caster states", 0}, header_{"lit map header", 0},
+        view_{"lit map view", 0}, weights_{"join weights", 0}, tallies_{"caster tallies", 0}, sides_{"volume sides", 0},
+        caps_{"volume caps", 0}, draws_{"volume draws", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
 };
 
 }  // namespace heliodon::realtime

@@ -1,9 +1,8 @@
-// Shadow volumes: sharp shadows of the sun, the same as rays find them. With HELIODON_FULL set, in pictures of full size
-// and with the map's own size.
+// Shadow volumes: sharp shadows of the sun, the same as rays find them. With HELIODON_FULL set, in pictures of full
+// size and with the map's own size.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <iostream>
 #include <utility>
 
 #include "import/import.h"
@@ -100,7 +99,8 @@ struct Difference {
 class ShadowVolumesTest : public RealtimeTest {
 protected:
     /// In a picture of `columns` × `rows` pixels.
-    Difference difference(const Scene& scene, const Camera& camera, int columns, int rows, RealtimeStatistics* statistics = nullptr) {
+    Difference difference(const Scene& scene, const Camera& camera, int columns, int rows,
+                          RealtimeStatistics* statistics = nullptr) {
         RealtimeOptions options;
         options.width = columns;
         options.height = rows;
@@ -113,7 +113,6 @@ protected:
         for (int y = 0; y < rows; ++y)
             for (int x = 0; x < columns; ++x) seen.push_back(truth.at(frame, x, y));
         Difference result;
-        const bool lists = std::getenv("HELIODON_TEST_LIST") != nullptr;
         for (int y = 0; y < rows; ++y)
             for (int x = 0; x < columns; ++x) {
                 const Truth::Pixel pixel = seen[y * columns + x];
@@ -129,10 +128,11 @@ protected:
                     inside = inside && seen[v * columns + u] == pixel;
                 }
                 result.inside += inside;
-                if (lists) std::cout << x << ' ' << y << (lit ? " lit" : " shadowed") << (inside ? " inside\n" : "\n");
             }
-        std::cout << result.different << " of " << result.judged << " pixels differ, " << result.inside
-                  << " of them away from edges; " << result.shadowed << " in shadow\n";
+        RecordProperty("pixels", result.judged);
+        RecordProperty("in_shadow", result.shadowed);
+        RecordProperty("different", result.different);
+        RecordProperty("different_away_from_edges", result.inside);
         return result;
     }
 };
@@ -219,7 +219,8 @@ TEST_F(ShadowVolumesTest, NoTriangleIsMissedForBeingSmallerThanATexelOfTheMap) {
     add_sun(scene, {-0.55f, -0.8f, -0.35f}, glm::vec3(50000));
     make_judgeable(scene);
     RenderSettings settings = scene.render_settings();
-    // A sphere of 16 thousand triangles on a few dozen texels, looked at closer until triangles have four of them, or not.
+    // A sphere of 16 thousand triangles on a few dozen texels, looked at closer until triangles have four of them, or
+    // not.
     for (const float significant_px : {4.0f, 1e-4f}) {
         settings.shadow_volumes = {.map_size = 64, .significant_px = significant_px};
         scene.set_render_settings(settings);
@@ -256,10 +257,21 @@ TEST_F(ShadowVolumesTest, OpenInsideOutAndNonManifoldMeshesCastTheirShadows) {
     add_shape_node(scene, Box{{-1.2f, 0.3f, 0.9f}, {-0.6f, 0.9f, 1.4f}}, white, mirrored);
     // Three wings on one edge, the third the other way round; a T-junction; two triangles through each other.
     const glm::vec3 foot(0.4f, 0.2f, -0.5f), head(0.4f, 1.1f, -0.5f);
-    add_triangles(scene, white, {foot, head, {1, 0.6f, -0.5f}, foot, head, {0, 0.6f, 0}, head, foot, {0.2f, 0.6f, -1.1f}});
-    add_triangles(scene, white, {{-1, 0.4f, -2}, {0, 0.4f, -1}, {0, 0.4f, -2}, {-1, 0.4f, -2}, {-1, 0.4f, -1}, {-0.5f, 0.4f, -1.5f},
-                                 {-1, 0.4f, -1}, {0, 0.4f, -1}, {-0.5f, 0.4f, -1.5f}});
-    add_triangles(scene, white, {{0, 0.5f, 1}, {0.8f, 0.5f, 1.8f}, {0, 0.9f, 1.8f}, {0, 0.9f, 1}, {0.8f, 0.5f, 1.1f}, {0.6f, 0.5f, 1.9f}});
+    add_triangles(scene, white,
+                  {foot, head, {1, 0.6f, -0.5f}, foot, head, {0, 0.6f, 0}, head, foot, {0.2f, 0.6f, -1.1f}});
+    add_triangles(scene, white,
+                  {{-1, 0.4f, -2},
+                   {0, 0.4f, -1},
+                   {0, 0.4f, -2},
+                   {-1, 0.4f, -2},
+                   {-1, 0.4f, -1},
+                   {-0.5f, 0.4f, -1.5f},
+                   {-1, 0.4f, -1},
+                   {0, 0.4f, -1},
+                   {-0.5f, 0.4f, -1.5f}});
+    add_triangles(
+        scene, white,
+        {{0, 0.5f, 1}, {0.8f, 0.5f, 1.8f}, {0, 0.9f, 1.8f}, {0, 0.9f, 1}, {0.8f, 0.5f, 1.1f}, {0.6f, 0.5f, 1.9f}});
     add_sun(scene, {0.35f, -0.8f, -0.25f}, glm::vec3(50000));
     make_judgeable(scene);
     const Difference d = difference(scene, camera_from({0.5f, 5, 4.5f}, {0, 0.2f, -0.2f}), width, height);
@@ -308,11 +320,49 @@ TEST_F(ShadowVolumesTest, MaskedSurfacesCastTheirShadowsByMapsBesideVolumes) {
     scene.set_render_settings(settings);
     const Image image = render(scene, camera_above(50, 1.5f), 96);
     // Half a metre beside each.
-    const auto at = [&](float x) { return image.at(static_cast<int>((x / 1.5f + 1) * 48), static_cast<int>((-0.5f / 1.5f + 1) * 48)); };
+    const auto at = [&](float x) {
+        return image.at(static_cast<int>((x / 1.5f + 1) * 48), static_cast<int>((-0.5f / 1.5f + 1) * 48));
+    };
     EXPECT_EQ(at(-0.9f), 0);
     EXPECT_GT(at(0), 0);
     EXPECT_EQ(at(0.9f), 0);
     EXPECT_GT(at(0.45f), 0);
+}
+
+TEST_F(ShadowVolumesTest, MapsOfTheirLightAreDrawnOnlyForThoseWhoAskThem) {
+    Scene scene = boxes_and_spheres();
+    scene.add_sensor({.name = "behind the first box", .position = {-0.5f, 0.02f, -0.35f}});
+    scene.add_sensor({.name = "open", .position = {3, 0.02f, 3}});
+    const Camera camera = camera_from({3, 2.2f, 4}, {0, 0.5f, 0});
+    RealtimeOptions options;
+    options.width = 32, options.height = 24, options.samples = 1;
+    const auto picture = [&](std::uint64_t& maps, const char* gi = "none") {
+        options.gi = gi;
+        RealtimeStatistics statistics;
+        const Image image = render(scene, camera, options, &statistics).image;
+        maps = statistics.shadow_maps_drawn;
+        return image;
+    };
+    std::uint64_t maps = 0;
+    const Image first = picture(maps);
+    EXPECT_EQ(maps, 0u);
+    const auto readings = renderer->measure(scene, options);
+    ASSERT_TRUE(readings) << readings.error().text();
+    EXPECT_EQ((*readings)[0].value, 0) << "sensors ask maps";
+    EXPECT_GT((*readings)[1].value, 1e4);
+    EXPECT_EQ(picture(maps).pixels, first.pixels);
+    EXPECT_EQ(maps, 0u);
+    RenderSettings settings = scene.render_settings();
+    settings.voxels = 32;
+    scene.set_render_settings(settings);
+    (void)picture(maps, "vct");
+    EXPECT_GT(maps, 0u) << "voxels ask maps";
+    Material glass = lambert(glm::vec3(0.8f));
+    glass.alpha_mode = AlphaMode::blend;
+    glass.opacity = 0.5f;
+    add_shape_node(scene, Quad{{-3, 1, -3}, {0, 0, 0.6f}, {0.6f, 0, 0}}, scene.add_material(glass));
+    (void)picture(maps);
+    EXPECT_GT(maps, 0u) << "a blended surface casts no volume";
 }
 
 Camera first_camera(const Scene& scene) {

@@ -6,27 +6,21 @@
 
 layout(set = 0, binding = 12, std430) readonly buffer CasterRanges { CasterRange caster_ranges[]; };
 
-uint caster_of_triangle(uint triangle, uint range_count) {
+/// The instance that triangle or edge `number` belongs to.
+uint caster_of(uint number, uint range_count, bool edges) {
     uint low = 0u;
     uint high = range_count;
     while (high - low > 1u) {
         const uint middle = (low + high) / 2u;
-        if (caster_ranges[middle].first_triangle <= triangle) low = middle;
+        const CasterRange range = caster_ranges[middle];
+        if ((edges ? range.first_edge : range.first_triangle) <= number) low = middle;
         else high = middle;
     }
     return low;
 }
 
-uint caster_of_edge(uint edge, uint range_count) {
-    uint low = 0u;
-    uint high = range_count;
-    while (high - low > 1u) {
-        const uint middle = (low + high) / 2u;
-        if (caster_ranges[middle].first_edge <= edge) low = middle;
-        else high = middle;
-    }
-    return low;
-}
+uint caster_of_triangle(uint triangle, uint range_count) { return caster_of(triangle, range_count, false); }
+uint caster_of_edge(uint edge, uint range_count) { return caster_of(edge, range_count, true); }
 
 uint caster_first_index(CasterRange range, uint triangle) {
     return geometry_table[instance_table[range.instance].geometry].first_index + 3u * (triangle - range.first_triangle);
@@ -49,6 +43,10 @@ bool casts_volume(uint state, uint choice) {
     return (state & (choice == behind_joined ? caster_lit | caster_joined : caster_lit)) != 0u;
 }
 
-uint fewest_sides(CasterTally tally) { return tally.all < tally.joined ? behind_all : behind_joined; }
+/// Joined triangles, chosen all at once, may also leave more sides than the lit ones have. Of equals, fewer triangles.
+uint fewest_sides(CasterTally tally) {
+    if (tally.lit <= min(tally.joined, tally.all)) return behind_lit;
+    return tally.joined <= tally.all ? behind_joined : behind_all;
+}
 
 #endif

@@ -23,12 +23,13 @@ glm::uvec3 groups_for(std::uint32_t threads) {
 
 }  // namespace
 
-Result<void> record_classify(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene, const Casters& casters,
-                             glm::vec3 sun, float significant_m2) {
+Result<void> record_classify(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                             const Casters& casters, glm::vec3 sun, float significant_m2) {
     auto classify = pipelines.compute("passes/shadow_volumes/classify.comp");
     if (!classify) return tl::unexpected(classify.error());
     const shading::ClassifyConstants push{sun, significant_m2, casters.range_count, casters.triangle_count};
-    commands.dispatch(**classify, push, select_bindings(**classify, scene, {{12, *casters.ranges}, {13, *casters.states}}),
+    commands.dispatch(**classify, push,
+                      select_bindings(**classify, scene, {{12, *casters.ranges}, {13, *casters.states}}),
                       groups_for(casters.triangle_count));
     return {};
 }
@@ -75,8 +76,8 @@ Result<void> add_lit_map(graph::Graph& graph, gpu::Pipelines& pipelines, SceneIn
     return {};
 }
 
-Result<void> record_joins(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene, const Casters& casters,
-                          const gpu::Buffer& weights, const gpu::Buffer& tallies) {
+Result<void> record_joins(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
+                          const Casters& casters, const gpu::Buffer& weights, const gpu::Buffer& tallies) {
     auto weigh = pipelines.compute("passes/shadow_volumes/weigh_joins.comp");
     if (!weigh) return tl::unexpected(weigh.error());
     auto join = pipelines.compute("passes/shadow_volumes/join.comp");
@@ -85,8 +86,9 @@ Result<void> record_joins(gpu::Commands& commands, gpu::Pipelines& pipelines, co
     if (!tally) return tl::unexpected(tally.error());
     const shading::SilhouetteConstants edges{casters.range_count, casters.edge_count, 0, 0};
     const shading::SilhouetteConstants triangles{casters.range_count, casters.triangle_count, 0, 0};
-    const std::initializer_list<NumberedBinding> bound{{9, *casters.edges}, {10, *casters.edge_uses}, {12, *casters.ranges},
-                                                       {13, *casters.states}, {15, weights}, {16, tallies}};
+    const std::initializer_list<NumberedBinding> bound{{9, *casters.edges},   {10, *casters.edge_uses},
+                                                       {12, *casters.ranges}, {13, *casters.states},
+                                                       {15, weights},         {16, tallies}};
     for (int step = 0; step < join_steps; ++step) {
         commands.dispatch(**weigh, edges, select_bindings(**weigh, scene, bound), groups_for(casters.edge_count));
         commands.compute_barrier();
@@ -106,13 +108,23 @@ Result<void> record_volume_lists(gpu::Commands& commands, gpu::Pipelines& pipeli
     const shading::SilhouetteConstants edges{casters.range_count, casters.edge_count, lists.side_capacity, choice};
     commands.dispatch(**silhouettes, edges,
                       select_bindings(**silhouettes, scene,
-                                      {{9, *casters.edges}, {10, *casters.edge_uses}, {12, *casters.ranges},
-                                       {13, *casters.states}, {14, *lists.draws}, {15, *lists.sides}, {16, *lists.tallies}}),
+                                      {{9, *casters.edges},
+                                       {10, *casters.edge_uses},
+                                       {12, *casters.ranges},
+                                       {13, *casters.states},
+                                       {14, *lists.draws},
+                                       {15, *lists.sides},
+                                       {16, *lists.tallies}}),
                       groups_for(casters.edge_count));
-    const shading::SilhouetteConstants triangles{casters.range_count, casters.triangle_count, lists.cap_capacity, choice};
+    const shading::SilhouetteConstants triangles{casters.range_count, casters.triangle_count, lists.cap_capacity,
+                                                 choice};
     commands.dispatch(**caps, triangles,
                       select_bindings(**caps, scene,
-                                      {{12, *casters.ranges}, {13, *casters.states}, {14, *lists.draws}, {15, *lists.caps}, {16, *lists.tallies}}),
+                                      {{12, *casters.ranges},
+                                       {13, *casters.states},
+                                       {14, *lists.draws},
+                                       {15, *lists.caps},
+                                       {16, *lists.tallies}}),
                       groups_for(casters.triangle_count));
     return {};
 }

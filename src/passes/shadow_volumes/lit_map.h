@@ -23,10 +23,12 @@ struct Casters {
 struct LitMapBuffers {
     graph::BufferHandle states, header;  ///< Casters::states; LitMapHeader and the parts of the next round
 };
-/// Draws a part of the map, `part.size`² texels, and marks what it shows. `view` (ViewData) and `part` are read each time.
-[[nodiscard]] Result<void> add_lit_map(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene, const Casters& casters,
-                                       const LitMapBuffers& buffers, const gpu::Buffer& view,
-                                       const shading::LitMapConstants& part, std::uint32_t size, std::uint32_t instance_capacity);
+/// Draws a part of the map, `part.size`² texels, and marks what it shows. `view` (ViewData) and `part` are read each
+/// time.
+[[nodiscard]] Result<void> add_lit_map(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene,
+                                       const Casters& casters, const LitMapBuffers& buffers, const gpu::Buffer& view,
+                                       const shading::LitMapConstants& part, std::uint32_t size,
+                                       std::uint32_t instance_capacity);
 
 /// Joins triangles to the lit ones where that leaves fewer silhouettes, and tallies these by instance (CasterTally, 0
 /// before). `weights`: a word a triangle, 0 before and after.
@@ -39,7 +41,8 @@ struct VolumeLists {
     const gpu::Buffer *sides = nullptr, *caps = nullptr, *draws = nullptr, *tallies = nullptr;
     std::uint32_t side_capacity = 0, cap_capacity = 0;
 };
-[[nodiscard]] Result<void> record_volume_lists(gpu::Commands& commands, gpu::Pipelines& pipelines, const SceneInputs& scene,
-                                               const Casters& casters, const VolumeLists& lists, std::uint32_t choice);
+[[nodiscard]] Result<void> record_volume_lists(gpu::Commands& commands, gpu::Pipelines& pipelines,
+                                               const SceneInputs& scene, const Casters& casters,
+                                               const VolumeLists& lists, std::uint32_t choice);
 
 }  // namespace heliodon::passes

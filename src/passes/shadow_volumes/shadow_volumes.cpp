@@ -31,8 +31,8 @@ gpu::GraphicsDescription counting(gpu::GraphicsDescription description, bool tur
 }
 
 struct VolumePipelines {
-    const gpu::GraphicsPipeline *opaque = nullptr, *tested = nullptr, *sides = nullptr, *toward = nullptr, *away = nullptr,
-                                *shadowed = nullptr;
+    const gpu::GraphicsPipeline *opaque = nullptr, *tested = nullptr, *sides = nullptr, *toward = nullptr,
+                                *away = nullptr, *shadowed = nullptr;
 
     [[nodiscard]] Result<void> open(gpu::Pipelines& pipelines) {
         auto shadowed_description = counting(description_of("volume shadowed", "shadowed.vert", "shadowed.frag"));
@@ -61,7 +61,8 @@ VolumeConstants constants_of(const ShadowVolumeInputs& inputs, std::uint32_t fir
 
 void draw_volumes(gpu::Commands& commands, const SceneInputs& scene, const ShadowVolumeInputs& inputs,
                   const VolumePipelines& pipelines) {
-    const auto draw = [&](const gpu::GraphicsPipeline& pipeline, const gpu::Buffer& list, std::uint32_t first, std::uint32_t kind) {
+    const auto draw = [&](const gpu::GraphicsPipeline& pipeline, const gpu::Buffer& list, std::uint32_t first,
+                          std::uint32_t kind) {
         commands.bind(pipeline, constants_of(inputs, first), select_bindings(pipeline, scene, {{8, list}}));
         commands.draw_indirect(*inputs.draws, kind * sizeof(shading::VolumeDraw), 1);
     };
@@ -75,7 +76,8 @@ void draw_volumes(gpu::Commands& commands, const SceneInputs& scene, const Shado
 static_assert(sizeof(shading::VolumeDraw) == sizeof(VkDrawIndirectCommand));
 
 Result<graph::ImageHandle> add_shadow_volumes(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene,
-                                              const ShadowVolumeInputs& inputs, const DrawLists& lists, VkExtent2D extent) {
+                                              const ShadowVolumeInputs& inputs, const DrawLists& lists,
+                                              VkExtent2D extent) {
     VolumePipelines drawn;
     if (auto done = drawn.open(pipelines); !done) return tl::unexpected(done.error());
     const VkExtent3D size{extent.width, extent.height, 1};

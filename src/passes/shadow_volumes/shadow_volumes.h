@@ -17,9 +17,10 @@ struct ShadowVolumeInputs {
 
 /// Which pixels' surfaces stand in a volume: R8UI, 0 where the light reaches them. Volumes are counted in the stencil
 /// beyond each surface (z-fail: Everitt & Kilgard 2002, "Practical and Robust Stenciled Shadow Volumes"), so the camera
-/// may stand in one. `lists`: what the camera sees. Blended surfaces are not asked about.
-[[nodiscard]] Result<graph::ImageHandle> add_shadow_volumes(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInputs& scene,
-                                                            const ShadowVolumeInputs& inputs, const DrawLists& lists,
-                                                            VkExtent2D extent);
+/// may stand in one. Vulkan's stencil has eight bits: a surface in a multiple of 256 volumes is lit. `lists`: what the
+/// camera sees. Blended surfaces are not asked about.
+[[nodiscard]] Result<graph::ImageHandle> add_shadow_volumes(graph::Graph& graph, gpu::Pipelines& pipelines,
+                                                            SceneInputs& scene, const ShadowVolumeInputs& inputs,
+                                                            const DrawLists& lists, VkExtent2D extent);
 
 }  // namespace heliodon::passes

@@ -65,8 +65,8 @@ struct SilhouetteConstants {
     uint capacity;
     uint choice;    // behind_…
 };
-// Which triangles of an instance have volumes: the lit ones, these and joined ones, all that face the sun, or the fewer
-// sides of the last two.
+// Which triangles of an instance have volumes: the lit ones, these and joined ones, all that face the sun, or those of
+// these three with the fewest sides.
 SHADING_CONST uint behind_lit = 0u;
 SHADING_CONST uint behind_joined = 1u;
 SHADING_CONST uint behind_all = 2u;
