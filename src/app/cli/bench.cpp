@@ -106,9 +106,6 @@ Result<void> bench_natus(const BenchOptions& options) {
 }
 
 Result<void> bench_cost(const BenchOptions& options) {
-    if (!options.scenes.empty() || !options.natus.scene.overrides.empty())
-        throw CLI::ValidationError(options.scenes.empty() ? "--set" : "--scene",
-                                   "expected with natus or fly: the cost is measured on built-in scenes");
     if (options.voxels.size() > 1) throw CLI::ValidationError("--voxels", "expected one grid for the cost");
     const int voxels = options.voxels.empty() ? CostReport{}.voxels : options.voxels.front();
     const TimingOptions& timing = options.natus.timing;
@@ -142,6 +139,48 @@ Result<void> bench_cie171(const BenchOptions& options) {
     return print(options.json ? as_json(*report) : as_text(*report));
 }
 
+struct Benchmark {
+    std::string name;
+    Result<void> (*run)(const BenchOptions&);
+    std::vector<std::string> takes;  ///< options besides --json
+};
+
+const std::vector<Benchmark>& benchmarks() {
+    static const std::vector<Benchmark> all{
+        {"natus",
+         bench_natus,
+         {"--scene", "--set", "--size", "--voxels", "--tests", "--frames", "--path-seconds", "--device"}},
+        {"fly", bench_fly, {"--scene", "--set", "--size", "--tests", "--frames", "--device"}},
+        {"cost", bench_cost, {"--size", "--voxels", "--series", "--frames", "--device"}},
+        {"cie171", bench_cie171, {"--tests", "--target-error", "--seed"}},
+        {"shadow-volumes", bench_shadow_volumes, {"--scene", "--set", "--size", "--frames", "--device"}}};
+    return all;
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+    return text;
+}
+
+const Benchmark* find_benchmark(const std::string& name) {
+    const auto found = std::ranges::find(benchmarks(), name, &Benchmark::name);
+    return found == benchmarks().end() ? nullptr : &*found;
+}
+
+/// An option that would change nothing is a mistake.
+void refuse_options_of_others(const CLI::App& command, const std::string& name) {
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string given = option->get_name();
+        std::vector<std::string> takers;
+        for (const Benchmark& benchmark : benchmarks())
+            if (std::ranges::find(benchmark.takes, given) != benchmark.takes.end()) takers.push_back(benchmark.name);
+        if (option->count() > 0 && !takers.empty() && std::ranges::find(takers, name) == takers.end())
+            throw CLI::ValidationError(given, "expected with " + list_of(takers) + ", found with " + name);
+    }
+}
+
 }  // namespace
 
 Action declare_bench(CLI::App& command) {
@@ -157,9 +196,9 @@ Action declare_bench(CLI::App& command) {
             "triangles against those behind all")
         ->required()
         ->check([](const std::string& name) {
-            const bool known =
-                name == "natus" || name == "fly" || name == "cost" || name == "cie171" || name == "shadow-volumes";
-            return known ? "" : "expected natus, fly, cost, cie171 or shadow-volumes, found \"" + name + "\"";
+            std::vector<std::string> names;
+            for (const Benchmark& benchmark : benchmarks()) names.push_back(benchmark.name);
+            return find_benchmark(name) ? "" : "expected " + list_of(names) + ", found \"" + name + "\"";
         });
     command.add_option(
         "--scene", options->scenes,
@@ -192,11 +231,9 @@ Action declare_bench(CLI::App& command) {
         "cost: what grows; default voxels,pixels,triangles,lights");
     command.add_option("--device", natus.timing.device.device, "Vulkan device, by number or part of its name");
     command.add_flag("--json", options->json, "Print JSON");
-    return [options] {
-        if (options->name == "cie171") return bench_cie171(*options);
-        if (options->name == "fly") return bench_fly(*options);
-        if (options->name == "shadow-volumes") return bench_shadow_volumes(*options);
-        return options->name == "cost" ? bench_cost(*options) : bench_natus(*options);
+    return [options, &command] {
+        refuse_options_of_others(command, options->name);
+        return find_benchmark(options->name)->run(*options);
     };
 }
 

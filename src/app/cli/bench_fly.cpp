@@ -121,6 +121,7 @@ ordered_json model_json(const FlyModel& model, const std::vector<FlyMode>& measu
         for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"gpu_ms", pass.gpu_ms}});
         modes.push_back({{"mode", measured[i].key},
                          {"shadows_redrawn", !measured[i].keep_shadows},
+                         {"shadow_maps_drawn", frame.shadow_maps_drawn},
                          {"frame_median_ms", frame.median_ms},
                          {"frame_mean_ms", frame.mean_ms},
                          {"frames_a_second", frames_a_second(frame)},

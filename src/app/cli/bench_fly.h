@@ -16,8 +16,8 @@ struct FlyMode {
     const char* key;
     const char* column;  ///< over its passes
     const char* shows;
-    bool sunlight =
-        false;  ///< sun and sky by Hošek and Wilkie; else one directional light and an even sky without occlusion
+    /// Sun and sky by Hošek and Wilkie; else one directional light and an even sky without occlusion.
+    bool sunlight = false;
     bool volumes = false;       ///< shadow volumes instead of shadow maps
     bool keep_shadows = false;  ///< drawn once: nothing moves
 };
@@ -28,7 +28,7 @@ inline constexpr std::array<FlyMode, 4> fly_modes{{
     {"sunlight_volumes", "volumes", "sunlight with shadow volumes", true, true, true},
 }};
 
-/// Frames a second of the FLY paper's table, on its authors' hardware.
+/// Frames a second that were published of the FLY renderer, on its authors' hardware.
 struct FlyPublished {
     int triangles = 0;
     double simple_fps = 0, light_maps_fps = 0, sunlight_fps = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/cli/terminal.h"
@@ -9,8 +10,8 @@
 namespace heliodon::cli {
 namespace {
 
-Result<Image> measure(RealtimeRenderer& renderer, const Scene& scene, const Camera& camera, const ShadowVolumeOptions& options,
-                      VolumesBehind behind, ShadowVolumeReport& report) {
+Result<Image> measure(RealtimeRenderer& renderer, const Scene& scene, const Camera& camera,
+                      const ShadowVolumeOptions& options, VolumesBehind behind, ShadowVolumeReport& report) {
     RealtimeOptions wanted;
     wanted.width = options.timing.size.width;
     wanted.height = options.timing.size.height;
@@ -20,7 +21,8 @@ Result<Image> measure(RealtimeRenderer& renderer, const Scene& scene, const Came
     RealtimeStatistics statistics;
     auto picture = renderer.render(scene, camera, wanted, &statistics);
     if (!picture) return tl::unexpected(picture.error());
-    if (!statistics.shadow_volumes) return fail(options.scene.path, "expected a sun or another directional light, found none");
+    if (!statistics.shadow_volumes)
+        return fail(options.scene.path, "expected a sun or another directional light, found none");
     constexpr const char* names[] = {"lit triangles", "lit and joined ones", "all that face the sun"};
     ShadowVolumeReport::Row& row = report.rows.emplace_back();
     row.behind = names[static_cast<std::size_t>(behind)];
@@ -31,6 +33,13 @@ Result<Image> measure(RealtimeRenderer& renderer, const Scene& scene, const Came
     }
     report.device = statistics.device;
     return std::move(picture->image);
+}
+
+int different_pixels(const Image& a, const Image& b) {
+    int different = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); i += a.channels)
+        different += !std::equal(&a.pixels[i], &a.pixels[i] + a.channels, &b.pixels[i]);
+    return different;
 }
 
 }  // namespace
@@ -52,8 +61,7 @@ Result<ShadowVolumeReport> run_shadow_volumes(const ShadowVolumeOptions& options
         auto image = measure(*renderer, *scene, *camera, options, behind, report);
         if (!image) return tl::unexpected(image.error());
         if (!first) first = *image;
-        for (int y = 0; y < image->height; ++y)
-            for (int x = 0; x < image->width; ++x) report.rows.back().different_pixels += first->at(x, y, 1) != image->at(x, y, 1);
+        report.rows.back().different_pixels = different_pixels(*first, *image);
     }
     return report;
 }
@@ -62,18 +70,21 @@ std::string as_text(const ShadowVolumeReport& report, const ShadowVolumeOptions&
     const Size size = options.timing.size;
     std::string text = fmt::format("{}, {}×{}, {}\n", report.scene, size.width, size.height, report.device);
     text += fmt::format("{} triangles of opaque surfaces\n{:<24}{:>10}{:>10}{:>10}{:>14}{:>14}{:>14}{:>14}\n",
-                        report.rows[0].volumes.triangles, "volumes behind", "triangles", "edges", "sides", "stencil (ms)", "depth (ms)",
-                        "rebuilt (ms)", "other pixels");
+                        report.rows[0].volumes.triangles, "volumes behind", "triangles", "edges", "sides",
+                        "stencil (ms)", "depth (ms)", "rebuilt (ms)", "other pixels");
     for (const ShadowVolumeReport::Row& row : report.rows)
-        text += fmt::format("{:<24}{:>10}{:>10}{:>10}{:>14.3f}{:>14.3f}{:>14.1f}{:>14}\n", row.behind, row.volumes.caps, row.volumes.edges, row.volumes.sides,
-                            row.stencil_ms, row.depth_ms, row.volumes.build_ms, row.different_pixels);
+        text += fmt::format("{:<24}{:>10}{:>10}{:>10}{:>14.3f}{:>14.3f}{:>14.1f}{:>14}\n", row.behind, row.volumes.caps,
+                            row.volumes.edges, row.volumes.sides, row.stencil_ms, row.depth_ms, row.volumes.build_ms,
+                            row.different_pixels);
     text += fmt::format("lit triangles: {} parts of their map; newly found by round:", report.rows[0].volumes.parts);
     for (const std::uint32_t found : report.rows[0].volumes.found_by_round) text += fmt::format(" {}", found);
     return text + "\n";
 }
 
 std::string as_json(const ShadowVolumeReport& report, const ShadowVolumeOptions& options) {
-    nlohmann::ordered_json json{{"scene", report.scene}, {"device", report.device}, {"width", options.timing.size.width},
+    nlohmann::ordered_json json{{"scene", report.scene},
+                                {"device", report.device},
+                                {"width", options.timing.size.width},
                                 {"height", options.timing.size.height}};
     for (const ShadowVolumeReport::Row& row : report.rows)
         json["volumes"].push_back({{"behind", row.behind},

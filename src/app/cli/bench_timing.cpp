@@ -65,7 +65,8 @@ Result<FrameTime> FrameTimer::time(Size size, Picture* picture, bool keep_shadow
     if (picture) *picture = std::move(*rendered);
     device_ = numbers.device;
     const FrameSteps steps = steps_of(numbers.passes);
-    return FrameTime{numbers.gpu_ms_mean, numbers.gpu_ms_total, steps, std::move(numbers.passes)};
+    return FrameTime{numbers.gpu_ms_mean, numbers.gpu_ms_total, steps, std::move(numbers.passes),
+                     numbers.shadow_maps_drawn};
 }
 
 }  // namespace heliodon::cli

@@ -24,6 +24,7 @@ struct FrameTime {
     double mean_ms = 0, median_ms = 0;
     FrameSteps steps;
     std::vector<PassTime> passes;  ///< in the order of the frame
+    std::uint64_t shadow_maps_drawn = 0;  ///< in all frames that were timed
 };
 
 struct TimingOptions {
