@@ -206,7 +206,7 @@ void fill_averages(std::span<float> table) {
     const GaussLegendre<20> cosines;
     constexpr std::size_t turns = 16;
     const Lookup lookup{table};
-    for (std::size_t j = 0; j < stretched_averages; ++j)
+    each_table_row(stretched_averages, [&](std::size_t j) {
         for (std::size_t i = 0; i <= j; ++i) {
             const vec2 alpha(alpha_of_row(i, stretched_averages), alpha_of_row(j, stretched_averages));
             glm::dvec2 sum(0);
@@ -220,12 +220,13 @@ void fill_averages(std::span<float> table) {
                 table[stretched_average_start + 2 * entry + 1] = static_cast<float>(sum.y);
             }
         }
+    });
 }
 
 void fill_sheen(std::span<float> table) {
     const GaussLegendre<32> cosines;
     constexpr std::size_t turns = 24;
-    for (std::size_t j = 0; j < sheen_rows; ++j) {
+    each_table_row(sheen_rows, [&](std::size_t j) {
         const float alpha = sheen_alpha(static_cast<float>(j) / (sheen_rows - 1));
         for (std::size_t i = 0; i < sheen_columns; ++i) {
             const double x = static_cast<double>(i) / (sheen_columns - 1);
@@ -240,7 +241,7 @@ void fill_sheen(std::span<float> table) {
                 }
             table[sheen_albedo_start + j * sheen_columns + i] = static_cast<float>(2 * std::numbers::pi * sum / turns);
         }
-    }
+    });
 }
 
 }  // namespace

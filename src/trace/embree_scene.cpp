@@ -164,7 +164,7 @@ Result<TraceUpdate> EmbreeScene::update(const convert::FlatScene& flat, const co
         wanted.resize(levels_.size());
         for (std::uint32_t i = 0; i < wanted.size(); ++i) wanted[i] = i;
     }
-    if (fine_ && changes.any()) {
+    if (fine_ && concern_rays(flat, changes)) {
         fine_ = false;
         for (std::uint32_t index = 0; index < levels_.size(); ++index)
             if (!levels_[index].pairs.members.empty()) wanted.push_back(index);
@@ -239,31 +239,43 @@ void EmbreeScene::commit(const convert::FlatScene& flat) {
     rtcCommitScene(translucent_.get());
 }
 
-Result<void> EmbreeScene::refine(const convert::FlatScene& flat, std::size_t most_triangles) {
+bool EmbreeScene::concern_rays(const convert::FlatScene& flat, const convert::FlatChanges& changes) const {
+    if (changes.everything || !changes.geometries.empty() || !changes.instances.empty()) return true;
+    for (std::uint32_t index = 0; index < instances_.size(); ++index)
+        if (instances_[index].attached && instances_[index].mask != mask_of(flat, index)) return true;
+    return false;
+}
+
+Result<void> EmbreeScene::choose_tree(const convert::FlatScene& flat, std::size_t most_triangles) {
     constexpr std::size_t least_triangles = 4096;  // a smaller tree is in the cache, and no slower than a finer one
-    if (fine_) return {};
     std::vector<std::uint32_t> meshes;
     std::size_t triangles = 0;
+    bool paired = false;
     for (std::uint32_t index = 0; index < instances_.size(); ++index) {
         if (!instances_[index].direct) continue;
         meshes.push_back(flat.instances()[index].geometry);
         triangles += flat.geometries()[meshes.back()]->mesh.triangle_count();
+        paired = paired || instances_[index].pairs;
     }
-    if (triangles < least_triangles || triangles > most_triangles) return {};
+    const auto rebuild_plain = [&]() -> Result<void> {
+        for (const std::uint32_t mesh : meshes) levels_[mesh].pairs = {};
+        if (rebuild_top(flat, meshes)) return {};
+        top_.reset();
+        return fail("", "Embree cannot build the scene anew");
+    };
+    const bool fine = triangles >= least_triangles && triangles <= std::min(most_triangles, TrianglePairs::most_triangles);
+    if (fine == fine_) return {};
+    fine_ = fine;
+    if (!fine) return paired ? rebuild_plain() : Result<void>{};
     std::vector<TrianglePairs> pairs(meshes.size());
     tbb::parallel_for(std::size_t{0}, meshes.size(),
                       [&](std::size_t i) { pairs[i] = pair_triangles(flat.geometries()[meshes[i]]->mesh); });
-    fine_ = true;
     std::size_t quadrilaterals = 0;
     for (const TrianglePairs& each : pairs) quadrilaterals += each.members.size();
     if (quadrilaterals > triangles / 4 * 3) return {};  // so many alone would take more memory than triangles do
     for (std::size_t i = 0; i < meshes.size(); ++i) levels_[meshes[i]].pairs = std::move(pairs[i]);
-    if (rebuild_top(flat, meshes)) return {};
     // Another Embree may not know the builder.
-    for (const std::uint32_t mesh : meshes) levels_[mesh].pairs = {};
-    if (rebuild_top(flat, meshes)) return {};
-    top_.reset();
-    return fail("", "Embree cannot build the scene anew");
+    return rebuild_top(flat, meshes) ? Result<void>{} : rebuild_plain();
 }
 
 bool EmbreeScene::rebuild_top(const convert::FlatScene& flat, const std::vector<std::uint32_t>& meshes) {

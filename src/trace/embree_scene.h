@@ -46,10 +46,10 @@ public:
     /// error the next update starts afresh.
     [[nodiscard]] Result<TraceUpdate> update(const convert::FlatScene& flat, const convert::FlatChanges& changes);
 
-    /// For pictures of many rays: builds the tree anew, over pairs of triangles and with spatial splits, which takes a
-    /// few times as long; until the next change. Only where that can gain anything, and of no more than so many
-    /// triangles.
-    [[nodiscard]] Result<void> refine(const convert::FlatScene& flat, std::size_t most_triangles);
+    /// The tree for what is traced next, which depends on the scene and `most_triangles` alone, not on what was traced
+    /// before. Of no more triangles than that, and where it can gain anything, over pairs of triangles and with spatial
+    /// splits, which takes a few times as long to build; else as update() builds it. A tree that fits already stays.
+    [[nodiscard]] Result<void> choose_tree(const convert::FlatScene& flat, std::size_t most_triangles);
 
     /// The nearest hit of a scatter ray. Of a shadow ray: blocked, or the nearest surface that might let
     /// light through, or nothing.
@@ -79,6 +79,8 @@ private:
     int build_instanced_levels(const convert::FlatScene& flat);
     /// False where nothing changed: a hole stays a hole.
     bool place_instance(const convert::FlatScene& flat, std::uint32_t index);
+    /// Whether rays would meet anything else after `changes`, or meet it as something else.
+    [[nodiscard]] bool concern_rays(const convert::FlatScene& flat, const convert::FlatChanges& changes) const;
     /// All instances in a new tree, with those `meshes` taken anew; false if Embree cannot.
     bool rebuild_top(const convert::FlatScene& flat, const std::vector<std::uint32_t>& meshes);
     /// Builds the top level and the tree of what is translucent.

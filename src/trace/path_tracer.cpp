@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include "core/units.h"
+#include "shading/tables.h"
 #include "trace/bidirectional_loop.h"
 #include "trace/branching.h"
 #include "trace/lanes/lane_loop.h"
@@ -104,6 +106,15 @@ struct PathTracer::State {
         return result;
     }
 
+    /// Made by all threads, before a path asks for them and the other threads wait for the one that does.
+    void make_shading_tables() const {
+        const auto asks = [&](const shading::InstanceData& instance) {
+            return (instance.flags & shading::instance_flag_visible) &&
+                   flat.materials()[instance.material].model != shading::material_model_lambert;
+        };
+        if (std::ranges::any_of(flat.instances(), asks)) static_cast<void>(shading::shading_tables());
+    }
+
     trace::CpuKernel kernel(const PathOptions& options) {
         if (!emitters_current || emitters_environment != options.environment) {
             emitters = trace::build_emitters(flat, textures, options.environment);
@@ -150,14 +161,15 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
     trace::CpuKernel kernel = state_->kernel(options);
     set_camera(camera, options, kernel.frame);
     const auto start = std::chrono::steady_clock::now();
+    state_->make_shading_tables();
     // A finer tree costs the time of one or two samples a triangle. Whether it pays is asked of the picture's size, not of its
     // samples: going on with a picture must meet the same surfaces.
     constexpr std::size_t triangles_a_pixel = 16;
     const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
-    Result<void> refined;
-    trace::run_on_threads(options.threads, [&] { refined = state_->embree.refine(state_->flat, triangles_a_pixel * pixels); });
-    if (!refined) return tl::unexpected(refined.error());
-    const double refining = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    Result<void> chosen;
+    trace::run_on_threads(options.threads, [&] { chosen = state_->embree.choose_tree(state_->flat, triangles_a_pixel * pixels); });
+    if (!chosen) return tl::unexpected(chosen.error());
+    const double preparing = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     // Whoever tells the scatter of pixels from their neighbours' needs them independent.
     constexpr std::uint32_t tile_bits = 4;
     if (trace::wants_variance(options))
@@ -178,7 +190,7 @@ Result<Picture> PathTracer::render(const Scene&, const Camera& camera, const Pat
     auto picture = trace::render_picture(kernel, state_->embree, options, floor / units::exposure_scale(camera.ev100()),
                                          counted, progress, samples);
     if (!picture) return picture;
-    counted.seconds += branching.seconds + refining;
+    counted.seconds += branching.seconds + preparing;
     counted.rays += branching.rays;
     picture->ev100 = camera.ev100();
     picture->has_ev100 = true;
@@ -192,6 +204,10 @@ Result<std::vector<SensorReading>> PathTracer::measure(const Scene& scene, const
                                                        const Progress& progress) try {
     if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
     if (!state_->ready) return fail("", "expected the tracer to have followed the scene before it measures");
+    state_->make_shading_tables();
+    Result<void> chosen;
+    trace::run_on_threads(options.threads, [&] { chosen = state_->embree.choose_tree(state_->flat, 0); });
+    if (!chosen) return tl::unexpected(chosen.error());
     return trace::measure_sensors(scene, state_->kernel(options), state_->embree, options, progress);
 } catch (const std::exception& exception) {
     return fail("", fmt::format("the path tracer cannot measure: {}", exception.what()));

@@ -129,10 +129,11 @@ void write_layers(const Accumulation& accumulation, const PathOptions& options, 
     Image direct, indirect, variance, samples(options.width, options.height, 1);
     if (split) direct = indirect = picture.image;
     if (wants(options, "variance")) variance = samples;
-    double total = 0;
-    for (int block = 0; block < blocks.count(); ++block) {
+    std::atomic<std::int64_t> total = 0;
+    each_block(blocks, [&](int block) {
         const SamplesTaken taken = accumulation.taken(block);
         const int count = samples_in_half(taken.half[0], 0) + samples_in_half(taken.half[1], 1);
+        std::int64_t of_block = 0;
         blocks.each_pixel(block, [&](int x, int y) {
             const std::size_t pixel = static_cast<std::size_t>(y) * options.width + x;
             const glm::dvec3 mean = pixel_mean(sums, sums.radiance, pixel, taken);
@@ -145,10 +146,11 @@ void write_layers(const Accumulation& accumulation, const PathOptions& options, 
             }
             if (!variance.pixels.empty()) variance.at(x, y) = static_cast<float>(pixel_variance(sums, pixel, taken));
             samples.at(x, y) = static_cast<float>(count);
-            total += count;
+            of_block += count;
         });
-    }
-    statistics.mean_samples_per_pixel = total / (static_cast<double>(options.width) * options.height);
+        total += of_block;
+    });
+    statistics.mean_samples_per_pixel = static_cast<double>(total) / (static_cast<double>(options.width) * options.height);
     const auto keep = [&](const char* name, Image& image) {
         if (wants(options, name)) picture.layers.push_back({name, std::move(image)});
     };
@@ -238,13 +240,16 @@ Result<Picture> render_picture(const CpuKernel& shared_kernel, const EmbreeScene
         if (work.done >= most || (work.adaptive && work.adaptive->finished())) return true;
         return options.seconds && work.done > begin && elapsed() >= *options.seconds;
     };
-    // Whole passes over the picture, of so many paths that what a pass costs beside them does not count; after each
-    // the caller hears of it and may stop the work.
-    const double paths_a_pass = options.seconds ? 1 << 15 : 1 << 18;
+    // Whole passes over the picture, of so many paths that what a pass costs beside them does not count, among it that
+    // threads wait for the last at its end; after each the caller hears of it and may stop the work.
+    const auto paths_a_pass = [&] {
+        const double threads = tbb::this_task_arena::max_concurrency();
+        return options.seconds ? std::max(threads, 2.0) * (1 << 14) : std::max(threads, 4.0) * (1 << 16);
+    };
     const auto next_stop = [&] {
         const double pixels = static_cast<double>(options.width) * options.height;
         const double running = pixels * (work.adaptive ? work.adaptive->running() : 1.0);
-        const int end = work.done + static_cast<int>(std::clamp(paths_a_pass / running, 1.0, 1.0 + (most - work.done)));
+        const int end = work.done + static_cast<int>(std::clamp(paths_a_pass() / running, 1.0, 1.0 + (most - work.done)));
         return std::min({end, most, work.adaptive ? AdaptiveSampling::next_check(work.done) : most});
     };
     const auto fraction = [&] {
@@ -266,14 +271,14 @@ Result<Picture> render_picture(const CpuKernel& shared_kernel, const EmbreeScene
         add_surface_layers(shared_kernel, scene, options, work.done, picture);
         if (wants(options, "illuminance"))
             picture.layers.push_back({"illuminance", illuminance_layer(shared_kernel, scene, options, work.done)});
+        statistics.seconds = elapsed();
+        write_layers(work, options, picture, statistics);
     });
-    statistics.seconds = elapsed();
     statistics.samples_per_pixel = work.done;
     statistics.rays = rays;
     statistics.non_finite_samples = non_finite;
     statistics.stopped = stopped && !finished();
     if (work.adaptive) statistics.target_reached = work.adaptive->reached();
-    write_layers(work, options, picture, statistics);
     if (options.keep_state == KeepState::always || (options.keep_state == KeepState::when_stopped && statistics.stopped))
         store_state(work, render_identity(shared_kernel, options), picture);
     return picture;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -12,6 +13,7 @@ namespace heliodon::trace {
 /// enclose.
 struct TrianglePairs {
     static constexpr std::uint32_t none = ~0u;
+    static constexpr std::size_t most_triangles = std::size_t{1} << 30u;  ///< that Members can number
     /// A triangle's number times 4, plus which of its corners stands first.
     struct Members {
         std::uint32_t first, second;  ///< `second` none: a triangle alone

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <vector>
 
 #include "scene_building.h"
 #include "trace/embree_scene.h"
@@ -84,9 +85,9 @@ TEST(TrianglePairs, LeaveStrangersAlone) {
 class RefinedTree : public testing::Test {
 protected:
     RefinedTree() {
-        add_mesh(scene_, bumpy_ball(60, 80), lambert(.5f));
+        ball_ = add_mesh(scene_, bumpy_ball(60, 80), lambert(.5f));
         for (trace::EmbreeScene* each : {&plain_, &refined_}) EXPECT_TRUE(each->update(flat_, everything()));
-        EXPECT_TRUE(refined_.refine(flat_, 1u << 20));
+        EXPECT_TRUE(refined_.choose_tree(flat_, 1u << 20));
     }
     convert::FlatChanges everything() {
         flat_ = {};
@@ -95,6 +96,7 @@ protected:
     const Mesh& mesh() const { return flat_.geometries()[0]->mesh; }
 
     Scene scene_;
+    NodeId ball_;
     convert::FlatScene flat_;
     trace::EmbreeScene plain_, refined_;
     std::mt19937 random_{7};
@@ -157,7 +159,7 @@ TEST_F(RefinedTree, IsLeftWhenTheSceneChanges) {
     ASSERT_TRUE(first) << first.error().text();
     EXPECT_NEAR(refined_.trace(up).t, 1, 1e-3);
     EXPECT_NEAR(refined_.trace(down).t, bottom, 1e-5);
-    ASSERT_TRUE(refined_.refine(flat_, 1u << 20));
+    ASSERT_TRUE(refined_.choose_tree(flat_, 1u << 20));
     EXPECT_NEAR(refined_.trace(up).t, 1, 1e-3);
     EXPECT_NEAR(refined_.trace(down).t, bottom, 1e-5);
     Transform raised;
@@ -168,6 +170,46 @@ TEST_F(RefinedTree, IsLeftWhenTheSceneChanges) {
     EXPECT_NEAR(refined_.trace(down).t, bottom, 1e-5);
 }
 
+TEST_F(RefinedTree, DependsOnThePictureNotOnThoseBefore) {
+    std::uniform_real_distribution<float> anywhere(-3, 3);
+    const auto point = [&] { return glm::vec3(anywhere(random_), anywhere(random_), anywhere(random_)); };
+    std::vector<shading::KernelRay> rays;
+    for (int i = 0; i < 5000; ++i) {
+        const glm::vec3 origin = point();
+        rays.push_back(ray_of(origin, point() - origin));
+    }
+    const auto hits = [&](const trace::EmbreeScene& tree) {
+        std::vector<std::array<float, 3>> all;
+        for (const shading::KernelRay& ray : rays) {
+            const shading::KernelHit hit = tree.trace(ray);
+            if (hit.kind == shading::kernel_hit_surface) all.push_back({hit.t, hit.barycentric.x, hit.barycentric.y});
+        }
+        return all;
+    };
+    const auto plain = hits(plain_), refined = hits(refined_);
+    EXPECT_NE(plain, refined) << "or the rest says nothing";
+    ASSERT_TRUE(refined_.choose_tree(flat_, 5000));
+    EXPECT_EQ(hits(refined_), plain) << "of a picture that is too small";
+    ASSERT_TRUE(refined_.choose_tree(flat_, 1u << 20));
+    EXPECT_EQ(hits(refined_), refined);
+}
+
+TEST_F(RefinedTree, StaysWhereOnlyLightChanges) {
+    const shading::KernelRay ray = ray_of({0, 0, 0}, {.3f, 1, .2f});
+    add_light(scene_, point_light(5), {0, 0, 0});
+    scene_.set_sky(even_sky(3));
+    scene_.set_material(scene_.nodes().find(ball_)->parts[0].material, lambert(.2f));
+    const auto update = refined_.update(flat_, flat_.update(scene_));
+    ASSERT_TRUE(update);
+    EXPECT_FALSE(update->top_level_built);
+    EXPECT_EQ(update->geometries_built, 0);
+    const float t = refined_.trace(ray).t;
+    trace::EmbreeScene fresh;
+    ASSERT_TRUE(fresh.update(flat_, everything()));
+    ASSERT_TRUE(fresh.choose_tree(flat_, 1u << 20));
+    EXPECT_EQ(fresh.trace(ray).t, t);
+}
+
 TEST_F(RefinedTree, AnswersShadowRaysThroughWhatIsTranslucent) {
     Material glass = lambert(0);
     glass.alpha_mode = AlphaMode::blend;
@@ -176,7 +218,7 @@ TEST_F(RefinedTree, AnswersShadowRaysThroughWhatIsTranslucent) {
     for (const bool refine : {false, true}) {
         trace::EmbreeScene tree;
         ASSERT_TRUE(tree.update(flat_, everything()));
-        if (refine) ASSERT_TRUE(tree.refine(flat_, 1u << 20));
+        if (refine) ASSERT_TRUE(tree.choose_tree(flat_, 1u << 20));
         shading::KernelRay ray = ray_of({0, 0, 0}, {0, 1, .01f});
         ray.kind = shading::kernel_ray_shadow;
         EXPECT_EQ(tree.trace(ray).kind, shading::kernel_hit_blocked) << "by the ball behind the pane";

@@ -22,10 +22,12 @@ struct Batch {
     std::vector<Want> wants;  ///< of each path's block
     std::vector<LaneRadiance> radiances;
 
-    void add_block(const Accumulation& picture, int block, int end) {
+    /// Those of the `slice`th of so many equal parts of a block's rows.
+    void add_block(const Accumulation& picture, int block, int slice, int slices, int end) {
         const Want want = picture.adaptive ? picture.adaptive->want(block) : Want{{true, true}, {false, false}};
         if (!want.any()) return;
         picture.blocks.each_pixel(block, [&](int x, int y) {
+            if (y % Blocks::side * slices / Blocks::side != slice) return;
             for (int i = picture.done; i < end; ++i) {
                 if (!want.half(i & 1)) continue;
                 paths.push_back(
@@ -66,16 +68,19 @@ struct Batch {
 AddSamples lane_samples(const CpuKernel& shared_kernel, const EmbreeScene& scene) {
     return [kernel = shared_kernel, &scene](Accumulation& picture, int end) {
         const LaneScene lanes = lane_scene(kernel, scene);
-        // At the end of a batch lanes run empty: enough paths that this does not count.
-        constexpr int paths_a_batch = 1024, pixels_a_block = Blocks::side * Blocks::side;
-        const int blocks_a_batch = std::max(1, paths_a_batch / (pixels_a_block * (end - picture.done)));
-        const int batches = (picture.blocks.count() + blocks_a_batch - 1) / blocks_a_batch;
+        // At the end of a batch lanes run empty: enough paths that this does not count, and no more, for at the end of a pass
+        // threads run empty.
+        constexpr int paths_a_batch = 1024;
+        const int paths_a_block = Blocks::side * Blocks::side * (end - picture.done);
+        const int blocks_a_batch = std::max(1, paths_a_batch / paths_a_block);
+        const int slices = std::clamp(paths_a_block / paths_a_batch, 1, Blocks::side);
+        const int batches = (picture.blocks.count() + blocks_a_batch - 1) / blocks_a_batch * slices;
         std::atomic<std::uint64_t> rays = 0, non_finite = 0;
         const auto follow = [&](int number) {
             Batch batch;
-            const int first = number * blocks_a_batch;
+            const int first = number / slices * blocks_a_batch;
             for (int block = first; block < std::min(first + blocks_a_batch, picture.blocks.count()); ++block)
-                batch.add_block(picture, block, end);
+                batch.add_block(picture, block, number % slices, slices, end);
             const PathCounts counts = batch.follow(lanes);
             batch.add_to(picture);
             rays += counts.rays;
