@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "graph/executor.h"
 #include "test_graph_shaders.h"
@@ -46,6 +48,14 @@ protected:
             [this, target, value](PassContext& context) {
                 context.commands.dispatch_threads(compute("fill.comp"), glm::vec4(value), {context.image(target)},
                                                   {side, side, 1});
+            });
+    }
+    void add_half_fill(const std::string& name, ImageHandle target) {
+        graph.add_pass(
+            name, PassKind::compute, [&](PassBuilder& p) { p.write(target, Usage::storage_write); },
+            [this, target](PassContext& context) {
+                context.commands.dispatch_threads(compute("half_fill.comp"), gpu::NoPushConstants{},
+                                                  {context.image(target)}, {side, side, 1});
             });
     }
     void add_sum(const std::string& name, ImageHandle source, ImageHandle target, float summand) {
@@ -132,12 +142,7 @@ TEST_F(Execution, RecordsOneGraphBesideOthersAndBothAreAsIfAlone) {
 TEST_F(Execution, PoisonsMemoryThatAPassForgetsToWrite) {
     const ImageHandle half = graph.create_image(square("half")), result = graph.create_image(square("result"));
     graph.export_image(result);
-    graph.add_pass(
-        "half", PassKind::compute, [&](PassBuilder& p) { p.write(half, Usage::storage_write); },
-        [this, half](PassContext& context) {
-            context.commands.dispatch_threads(compute("half_fill.comp"), gpu::NoPushConstants{}, {context.image(half)},
-                                              {side, side, 1});
-        });
+    add_half_fill("half", half);
     add_sum("copy", half, result, 0.0f);
     Executor executor(device(), {.poison = true});
     expect_ok(executor.set_graph(graph));
@@ -145,6 +150,26 @@ TEST_F(Execution, PoisonsMemoryThatAPassForgetsToWrite) {
     const auto texels = value_of(device().read_back_as<glm::vec4>(executor.image(result)));
     EXPECT_EQ(texels[0], glm::vec4(1.0f));
     EXPECT_TRUE(std::isnan(texels[side - 1].x)) << texels[side - 1].x;
+}
+
+TEST_F(Execution, PoisonsMemoryOfAPassThatWaitsWithAnEarlierOne) {
+    std::vector<std::pair<ImageHandle, ImageHandle>> copies;
+    for (const std::string name : {"first", "second"}) {
+        const ImageHandle half = graph.create_image(square(name)), result = graph.create_image(square(name + " copied"));
+        graph.export_image(result);
+        add_half_fill(name, half);
+        copies.emplace_back(half, result);
+    }
+    for (const auto& [half, result] : copies) add_sum("copy", half, result, 0.0f);
+    Executor executor(device(), {.poison = true});
+    expect_ok(executor.set_graph(graph));
+    ASSERT_TRUE(executor.compiled().order[1].barriers.empty()) << "joined with those of the first";
+    run(executor, 2);
+    for (const auto& [half, result] : copies) {
+        const auto texels = value_of(device().read_back_as<glm::vec4>(executor.image(result)));
+        EXPECT_EQ(texels[0], glm::vec4(1.0f));
+        EXPECT_TRUE(std::isnan(texels[side - 1].x)) << texels[side - 1].x;
+    }
 }
 
 TEST_F(Execution, KeepsHistoriesFromFrameToFrame) {

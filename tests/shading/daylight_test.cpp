@@ -15,13 +15,6 @@
 namespace heliodon::shading {
 namespace {
 
-vec3 radiance(const SkyData& sky, double azimuth_deg, double elevation_deg) {
-    return sky_radiance(sky, direction_from_azimuth(static_cast<float>(azimuth_deg * degree), static_cast<float>(elevation_deg * degree), 0), vec3(1));
-}
-double nits(const vec3& rgb) {
-    return units::luminance(glm::dvec3(rgb));
-}
-
 TEST(HosekSky, IsThatOfTheAuthorsCode) {
     // X, Y, Z / 683 at a zenith angle and an angle from the sun, which the formula takes for themselves.
     const struct {

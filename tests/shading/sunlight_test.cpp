@@ -99,7 +99,7 @@ TEST(DiscAbove, HasTheShareAndTheMiddleOfItsLuminance) {
     EXPECT_NEAR(disc_above(-0.00499999, 0.005).share, 0, 1e-5);
 }
 
-TEST(HosekSun, WithItsSkyIsNearPublishedClearSkies) {
+TEST(HosekSun, WithItsSkyDeviatesFromPublishedClearSkiesAsDocumented) {
     // IES Calculation Procedures Committee 1984, "Recommended Practice for the Calculation of Daylight Availability": clear
     // sky, klx: 127.5 e^(−0.21 m) sin a + 0.8 + 15.5 √sin a, with the air mass m = 1/sin a.
     const std::pair<double, double> rows[] = {{10, 0.18}, {20, 0.0}, {30, -0.07}, {45, -0.12}, {60, -0.15}, {90, -0.15}};

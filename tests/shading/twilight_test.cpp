@@ -16,13 +16,6 @@
 namespace heliodon::shading {
 namespace {
 
-vec3 radiance(const SkyData& sky, double azimuth_deg, double elevation_deg) {
-    return sky_radiance(sky, direction_from_azimuth(static_cast<float>(azimuth_deg * degree), static_cast<float>(elevation_deg * degree), 0), vec3(1));
-}
-double nits(const vec3& rgb) {
-    return units::luminance(glm::dvec3(rgb));
-}
-
 TEST(Twilight, HasTheMeasuredIlluminancesFromCivilDuskOn) {
     // Seidelmann 1992, Explanatory Supplement to the Astronomical Almanac, after Janiczek & DeYoung: civil, nautical,
     // astronomical dusk.
