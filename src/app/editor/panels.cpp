@@ -181,6 +181,19 @@ bool edit_cone_tracing(ConeTracingSettings& vct) {
     return edited;
 }
 
+/// A length in metres whose 0 means without bound.
+bool length_slider(const char* label, float& length_m, const char* unbounded) {
+    return ImGui::SliderFloat(label, &length_m, 0, 100, length_m > 0 ? "%.2f m" : unbounded,
+                              ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+}
+
+bool edit_ambient_occlusion(AmbientOcclusionSettings& occlusion) {
+    bool edited = ImGui::Checkbox("the sky hidden by what is seen", &occlusion.on);
+    edited |= length_slider("within", occlusion.reach_m, "the picture");
+    edited |= length_slider("thickness", occlusion.thickness_m, "without end");
+    return edited;
+}
+
 void global_illumination_panel(Scene& scene) {
     RenderSettings settings = scene.render_settings();
     bool traced = settings.gi == "vct";
@@ -192,17 +205,33 @@ void global_illumination_panel(Scene& scene) {
     ImGui::EndDisabled();
     ImGui::BeginDisabled(traced);
     edited |= named_choice("light of surroundings (approximation)", settings.ambient, "none\0constant\0directional\0");
-    edited |= ImGui::Checkbox("the sky hidden by what is seen", &settings.ambient_occlusion.on);
+    edited |= edit_ambient_occlusion(settings.ambient_occlusion);
     ImGui::EndDisabled();
     if (edited) scene.set_render_settings(std::move(settings));
 }
 
+bool edit_shadow_cascades(ShadowCascadeSettings& cascades) {
+    bool edited = ImGui::SliderInt("cascades of its shadow", &cascades.count, 1, most_shadow_cascades, "%d", ImGuiSliderFlags_AlwaysClamp);
+    edited |= ImGui::SliderFloat("split (even, by ratio)", &cascades.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    edited |= ImGui::SliderFloat("blend", &cascades.blend, 0, 0.5f, "%.3f", ImGuiSliderFlags_AlwaysClamp);
+    edited |= length_slider("as far as", cascades.distance_m, "the scene");
+    return edited;
+}
+
+bool edit_shadow_volumes(ShadowVolumeSettings& volumes) {
+    bool edited = number_choice("map of lit triangles", volumes.map_size, {256, 512, 1024, 2048, 4096});
+    edited |= ImGui::SliderFloat("significant area", &volumes.significant_px, 0.001f, 100, "%.3f texels",
+                                 ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+    return edited;
+}
+
 void sun_shadows_panel(Scene& scene) {
     RenderSettings settings = scene.render_settings();
-    ShadowCascadeSettings& cascades = settings.shadow_cascades;
     bool edited = named_choice("shadows of the sun", settings.sun_shadows, "cascades of maps\0volumes\0");
-    edited |= ImGui::SliderInt("cascades of its shadow", &cascades.count, 1, most_shadow_cascades, "%d", ImGuiSliderFlags_AlwaysClamp);
-    edited |= ImGui::SliderFloat("split (even, by ratio)", &cascades.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    edited |= edit_shadow_cascades(settings.shadow_cascades);
+    ImGui::BeginDisabled(settings.sun_shadows != SunShadows::volumes);
+    edited |= edit_shadow_volumes(settings.shadow_volumes);
+    ImGui::EndDisabled();
     if (edited) scene.set_render_settings(std::move(settings));
 }
 
