@@ -147,6 +147,23 @@ TEST_F(Bench, FlyHasThePublishedModels) {
     }
 }
 
+TEST_F(Bench, ShadowVolumesAreComparedByTheTrianglesTheyStandBehind) {
+    write("s.heliodon.json",
+          walls("0", R"(, {"light": {"type": "directional", "illuminance_lux": 9, "direction": [1,-3,-2]}})"));
+    const Ended ended =
+        run({"bench", "shadow-volumes", "--size", "32x24", "--frames", "1", "--json", "--scene", "s.heliodon.json"});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    const json rows = json::parse(ended.output)["volumes"];
+    ASSERT_EQ(rows.size(), 3u);
+    for (const json& row : rows) {
+        EXPECT_EQ(row["opaque_triangles"], 4);
+        EXPECT_EQ(row["different_pixels"], 0);
+        EXPECT_LE(rows[1]["sides"], row["sides"]) << "of lit and joined triangles, or whatever has fewest";
+    }
+    write("dark.heliodon.json", walls("0", bulb));
+    EXPECT_EQ(run({"bench", "shadow-volumes", "--size", "32x24", "--scene", "dark.heliodon.json"}).code, 1);
+}
+
 TEST_F(Bench, SaysWhereNoneOfTheTestsAskedForIsOfTheScene) {
     write("s.heliodon.json", walls("0", bulb));
     const Ended ended = run({"bench", "natus", "--scene", "s.heliodon.json", "--tests", "5"});

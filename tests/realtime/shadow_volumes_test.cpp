@@ -279,6 +279,26 @@ TEST_F(ShadowVolumesTest, OpenInsideOutAndNonManifoldMeshesCastTheirShadows) {
     EXPECT_GT(d.shadowed, width * height / 50);
 }
 
+TEST_F(ShadowVolumesTest, TrianglesDoNotJoinWhereThatLeavesMoreSides) {
+    Scene scene;
+    const MaterialId white = scene.add_material(lambert(glm::vec3(0.8f)));
+    // One triangle twice, under a roof, between two that the sun reaches. Either one alone would leave fewer sides.
+    const glm::vec3 a(0, 0, 0), b(1, 0, 0), c(0, 0, 1);
+    add_triangles(scene, white, {a, b, c, a, b, c, b, a, {0.5f, 0, -2}, c, b, {2, 0, 2}});
+    add_shape_node(scene, Quad{{-0.2f, 0.5f, -0.2f}, {0, 0, 1.4f}, {1.4f, 0, 0}}, white);
+    add_sun(scene, {0, -1, 0}, glm::vec3(50000));
+    make_judgeable(scene);
+    RealtimeOptions options;
+    options.width = 64, options.height = 48, options.samples = 1;
+    for (const VolumesBehind behind : {VolumesBehind::lit, VolumesBehind::fewest, VolumesBehind::all}) {
+        options.volumes_behind = behind;
+        RealtimeStatistics statistics;
+        render(scene, camera_from({3, 3, 4}, {0.5f, 0, 0}), options, &statistics);
+        ASSERT_TRUE(statistics.shadow_volumes);
+        EXPECT_EQ(statistics.shadow_volumes->sides, behind == VolumesBehind::all ? 4u + 8u : 4u + 6u);
+    }
+}
+
 TEST_F(ShadowVolumesTest, VolumesAreMadeAnewWhereSurfacesMoveAndNotForTheCamera) {
     Scene scene = boxes_and_spheres();
     RealtimeOptions options;

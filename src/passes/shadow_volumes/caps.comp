@@ -21,5 +21,6 @@ void main() {
     const uint draw = (state & caster_toward) != 0u ? volume_draw_toward : volume_draw_away;
     const uint place = atomicAdd(draws[draw].vertex_count, 3u) / 3u;
     if (place >= push.capacity) return;
-    caps[(draw - volume_draw_toward) * push.capacity + place] = uvec2(range.instance, caster_first_index(range, triangle));
+    const uint first = (draw - volume_draw_toward) * push.capacity;
+    caps[first + place] = uvec2(range.instance, caster_first_index(range, triangle));
 }

@@ -11,7 +11,9 @@ CasterEdge edge_of(CasterRange range, uint number) { return edges[range.edge_tab
 uint triangle_of_use(CasterRange range, uint use) { return range.first_triangle + (edge_uses[use] >> 1); }
 
 /// Which way the triangle goes along the edge, turned to face the sun: 1 from a to b, or -1.
-int way_of_use(uint use, uint state) { return ((state & caster_toward) != 0u) == ((edge_uses[use] & 1u) == 0u) ? 1 : -1; }
+int way_of_use(uint use, uint state) {
+    return ((state & caster_toward) != 0u) == ((edge_uses[use] & 1u) == 0u) ? 1 : -1;
+}
 
 /// How much more often triangles with volumes go along the edge from a to b than back. Each such time is a side.
 int sides_at(CasterRange range, CasterEdge edge, uint choice) {

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Triangles that a part of the map may have missed, because they are small against its texels. Significant ones are looked
-// for closer, in the next round. The others, and in the last round these too, go with the texels about them: they are
-// taken to be lit unless these all show something nearer to the sun. To take too many changes no shadow, since what is
-// hidden casts its own into another's.
+// Triangles that a part of the map may have missed, because they are small against its texels. Significant ones are
+// looked for closer, in the next round. The others, and in the last round these too, go with the texels about them: they
+// are taken to be lit unless these all show something nearer to the sun. To take too many changes no shadow, since what
+// is hidden casts its own into another's.
 #include "passes/shadow_volumes/casters.glsl"
 #include "passes/voxelize/linear_groups.glsl"
 

@@ -48,7 +48,7 @@ struct LitMapConstants {
     uint last_round;
 };
 
-/// First words of what a round finds out; the parts of the next round follow, row after row: 1 where one is to be drawn.
+/// First words of what a round finds out; the parts of the next round follow, row after row: 1 where one is wanted.
 struct LitMapHeader {
     uint found;  // significant triangles that were not known to be lit
     uint padding0;
