@@ -228,9 +228,19 @@ private:
                                               gpu::Timestamps* timestamps);
     [[nodiscard]] Result<void> render_batch(const Camera& camera, const FrameSample& sample, std::size_t batch, PassTimes* times);
     [[nodiscard]] Result<void> prefilter_sky();
-    [[nodiscard]] Result<void> filter_sky(PassTimes* times);
+    [[nodiscard]] Result<void> filter_sky(bool sky, PassTimes* times);
+    /// What the shell that stands for surroundings follows from.
+    struct AmbientKey {
+        AmbientLight kind = AmbientLight::none;
+        bool in_the_open = false;
+        std::uint64_t surfaces = 0, lights = 0, sky = 0;
+        bool operator==(const AmbientKey&) const = default;
+    };
     /// Finds out what stands for the light of surroundings, if the scene wants that.
     [[nodiscard]] Result<void> place_ambient();
+    [[nodiscard]] Result<void> set_ambient(const AmbientKey& key);
+    /// None with global illumination.
+    [[nodiscard]] AmbientLight ambient() const;
     /// Whether and how a sample finds out what hides the sky.
     void occlude_sky(const FrameSample& sample);
 
@@ -290,12 +300,8 @@ private:
         shadow_raster_views_{"shadow raster views", 0};
     passes::EnvironmentMaps sky_maps_;
     std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_, sky_picture_slot_, sky_reflected_slot_;
-    /// What the shell that stands for surroundings follows from.
-    struct AmbientKey {
-        AmbientLight kind = AmbientLight::none;
-        std::uint64_t surfaces = 0, lights = 0, sky = 0;
-        bool operator==(const AmbientKey&) const = default;
-    } ambient_key_;
+    AmbientKey ambient_key_;
+    AmbientLight reflected_sky_ = AmbientLight::none;  // what the shell's map is filtered for
     shading::AmbientOcclusionConstants occlusion_{};
     std::deque<gpu::TimelineValue> in_flight_;
 };

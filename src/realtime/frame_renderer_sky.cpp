@@ -74,20 +74,21 @@ Result<void> FrameRenderer::prefilter_sky() {
     maps.specular = *sky_specular_slot_;
     maps.irradiance = *sky_irradiance_slot_;
     maps.specular_levels = sky_maps_.specular.mips();
-    return gpu_scene_.set_sky_maps(maps).and_then([&] { return filter_sky(nullptr); });
+    return gpu_scene_.set_sky_maps(maps).and_then([&] { return filter_sky(true, nullptr); });
 }
 
-Result<void> FrameRenderer::filter_sky(PassTimes* times) {
+Result<void> FrameRenderer::filter_sky(bool sky, PassTimes* times) {
     auto commands = device_.begin_commands("environment");
     if (!commands) return tl::unexpected(commands.error());
     auto linear = device_.sampler(sky_sampler());
     if (!linear) return tl::unexpected(linear.error());
-    const passes::EnvironmentWork work{shading::sky_is_formula(gpu_scene_.flat().sky()) ? nullptr : gpu_scene_.sky_image(), *linear,
-                                       settings_.ambient != AmbientLight::none, settings_.ambient == AmbientLight::constant};
+    const passes::EnvironmentWork work{shading::sky_is_formula(gpu_scene_.flat().sky()) ? nullptr : gpu_scene_.sky_image(), *linear, sky,
+                                       ambient() != AmbientLight::none, ambient() == AmbientLight::constant};
     sky_timestamps_.begin_frame();
     if (auto done = passes::record_environment(*commands, pipelines_, sky_maps_, work, sky_timestamps_); !done) return done;
     auto submitted = device_.submit(std::move(*commands));
     if (!submitted) return tl::unexpected(submitted.error());
+    reflected_sky_ = ambient();
     if (!times) return {};
     auto taken = sky_timestamps_.wait();
     if (!taken) return tl::unexpected(taken.error());
@@ -99,7 +100,7 @@ Result<void> FrameRenderer::filter_sky(PassTimes* times) {
 Result<PassTimes> FrameRenderer::time_sky() {
     PassTimes times;
     if (sky_maps_.specular.handle() == VK_NULL_HANDLE) return times;
-    auto done = filter_sky(&times);
+    auto done = filter_sky(true, &times);
     return done ? Result<PassTimes>(std::move(times)) : tl::unexpected(done.error());
 }
 

@@ -95,7 +95,7 @@ Result<LiveRenderer::Frame> LiveRenderer::render(const Scene& scene, const Camer
         sample.shadow_index = sample.jitter_shadows ? sample.index / per_grid : 0;
         sample.environment = environment;
         sample.cone_traced = frames.settings().gi == "vct";
-        sample.occludes_sky = !sample.cone_traced;
+        sample.occludes_sky = frames.settings().gi == "none";
         sample.replace = state.samples == 0;
         sample.display = {.sample_scale = 1.0f / static_cast<float>(state.samples + 1), .seconds = seconds};
         sample.texture_gradient_scale = 1.0f / std::sqrt(static_cast<float>(std::min(state.samples + 1, 64)));

@@ -1,4 +1,8 @@
 // Light without global illumination: what surroundings are taken to reflect, what hides the sky, and illuminance of what is seen.
+#include <array>
+#include <numbers>
+
+#include "convert/pack.h"
 #include "engine_parity.h"
 #include "shading/ambient.h"
 
@@ -9,6 +13,7 @@ class Ambient : public EngineParity {
 protected:
     static void set(Scene& scene, AmbientLight ambient, bool occlusion) {
         RenderSettings settings = scene.render_settings();
+        settings.shadow_map_size = 32;
         settings.ambient = ambient;
         settings.ambient_occlusion.on = occlusion;
         scene.set_render_settings(std::move(settings));
@@ -88,19 +93,19 @@ TEST_F(Ambient, AnOpenPlaneKeepsTheWholeSkyAndAWallHidesItsShare) {
     camera.target = {0, 0, 0};
     camera.vertical_fov_rad = glm::radians(60.0f);
     set(scene, AmbientLight::none, true);
-    EXPECT_NEAR(render(scene, camera, 32, 4).rgb(16, 16).y, 50, 0.5f);
+    EXPECT_NEAR(render(scene, camera, 48, 2).rgb(24, 24).y, 50, 0.5f);
     // A wall without end to the sides hides (1 − cos A)/2, A the elevation of its top.
     const float height = 2;
     add_shape_node(scene, Box{{-60, 0, -3}, {60, height, -2}}, grey);
-    const Picture picture = layers(scene, camera, 64, 32, {"ao", "position"});
+    const Picture picture = layers(scene, camera, 48, 16, {"ao", "position"});
     const Image openness = layer(picture, "ao"), position = layer(picture, "position");
     int compared = 0;
-    for (int y = 30; y < 60; y += 5) {
-        const glm::vec3 at = position.rgb(32, y);
+    for (int y = 22; y < 45; y += 3) {
+        const glm::vec3 at = position.rgb(24, y);
         if (at.y > 0.01f || at.z < -1.8f) continue;
         const float expected = 0.5f * (1 + std::cos(std::atan2(height, at.z + 2)));
-        EXPECT_NEAR(openness.at(32, y), expected, 0.03f) << at.z;
-        EXPECT_NEAR(picture.image.rgb(32, y).y, 50 * expected, 2) << at.z;
+        EXPECT_NEAR(openness.at(24, y), expected, 0.03f) << at.z;
+        EXPECT_NEAR(picture.image.rgb(24, y).y, 50 * expected, 2) << at.z;
         ++compared;
     }
     EXPECT_GE(compared, 4);
@@ -111,14 +116,104 @@ TEST_F(Ambient, OcclusionLeavesLampsAlone) {
     const MaterialId grey = scene.add_material(lambert(glm::vec3(0.5f)));
     add_floor(scene, 2, grey);
     add_shape_node(scene, Box{{-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}}, grey);
-    add_point_light(scene, {1, 2, 1}, glm::vec3(100));
+    set_constant_sky(scene, 100);
     Camera camera;
     camera.position = {0, 2, 4};
     camera.target = {0, 0.3f, 0};
-    set(scene, AmbientLight::none, false);
-    const Image without = render(scene, camera, 24, 2);
-    set(scene, AmbientLight::none, true);
-    EXPECT_EQ(without.pixels, render(scene, camera, 24, 2).pixels);
+    std::array<Image, 4> pictures;  // without and with the lamp: the sky open, the sky hidden
+    for (int i = 0; i < 4; ++i) {
+        if (i == 2) add_point_light(scene, {1, 2, 1}, glm::vec3(1000));
+        set(scene, AmbientLight::none, i % 2 == 1);
+        pictures[i] = render(scene, camera, 16);
+    }
+    float lamp = 0, hidden = 0;
+    for (std::size_t i = 0; i < pictures[0].pixels.size(); ++i) {
+        EXPECT_NEAR(pictures[2].pixels[i] - pictures[0].pixels[i], pictures[3].pixels[i] - pictures[1].pixels[i], 1e-3f);
+        lamp = std::max(lamp, pictures[2].pixels[i] - pictures[0].pixels[i]);
+        hidden = std::max(hidden, pictures[0].pixels[i] - pictures[1].pixels[i]);
+    }
+    EXPECT_GT(lamp, 10);
+    EXPECT_GT(hidden, 5);
+}
+
+TEST_F(Ambient, OpennessIsOfBlackSurfacesToo) {
+    Scene scene;
+    add_floor(scene, 60, scene.add_material(lambert(glm::vec3(0))));
+    Camera camera;
+    camera.position = {0, 3, 8};
+    camera.target = {0, 0, 0};
+    const Image openness = layer(layers(scene, camera, 8, 1, {"ao"}), "ao");
+    EXPECT_FLOAT_EQ(openness.at(4, 4), 1);
+}
+
+TEST_F(Ambient, SensorsMeasureTheLightOfOpenSurfacesWhateverSurroundingsReflect) {
+    Scene scene;
+    const float albedo = 0.5f;
+    add_floor(scene, 1, scene.add_material(lambert(glm::vec3(albedo))));
+    set_constant_sky(scene, 100);
+    scene.add_sensor({"open", SensorType::illuminance, {0, 0, 0}, {0, 1, 0}, {}, {}});
+    const Camera camera = camera_above(4, 0.5f);
+    for (const bool occlusion : {false, true})
+        for (const AmbientLight kind : {AmbientLight::none, AmbientLight::directional}) {
+            set(scene, kind, occlusion);
+            const auto measured = renderer->measure(scene, {});
+            ASSERT_TRUE(measured);
+            const double seen = render(scene, camera, 4).rgb(1, 1).y * std::numbers::pi / albedo;
+            EXPECT_NEAR(measured->front().value, seen, 1e-3 * seen) << occlusion;
+            const bool more = kind != AmbientLight::none && !occlusion;
+            EXPECT_NEAR(seen, 100 * std::numbers::pi * (more ? 1 + albedo : 1), 0.1) << occlusion;
+        }
+}
+
+TEST_F(Ambient, TheShellKnowsOfASettingSunWhatIsAboveTheHorizon) {
+    Scene scene;
+    const float albedo = 0.5f;
+    add_floor(scene, 1, scene.add_material(lambert(glm::vec3(albedo))));
+    Sky sky;
+    sky.model = SkyModel::preetham;
+    sky.sun_elevation_rad = 0;
+    scene.set_sky(sky);
+    const glm::vec3 to_sun = -convert::pack_sun(sky)->axis;
+    scene.add_sensor({"sun", SensorType::illuminance, {0, 1, 0}, to_sun, {}, {}});
+    scene.add_sensor({"shell", SensorType::illuminance, {0, 1, 0}, -to_sun, {}, {}});
+    RealtimeOptions options;
+    options.environment = false;
+    const auto measured = [&](AmbientLight kind) {
+        set(scene, kind, false);
+        auto found = renderer->measure(scene, options);
+        EXPECT_TRUE(found);
+        return std::pair((*found)[0].value, (*found)[1].value);
+    };
+    const auto [sun, none] = measured(AmbientLight::none);
+    EXPECT_GT(sun, 1);
+    EXPECT_EQ(none, 0);
+    // A face across the sun's light gets a quarter of it, from a shell of that albedo.
+    EXPECT_NEAR(measured(AmbientLight::constant).second, 0.25 * albedo * sun, 0.02 * albedo * sun);
+}
+
+TEST_F(Ambient, WhatSurroundingsReflectIsThereAfterGlobalIllumination) {
+    Scene scene;
+    add_floor(scene, 1, scene.add_material(lambert(glm::vec3(0.5f))));
+    Sky sky;
+    sky.model = SkyModel::cie;
+    sky.cie_type = 5;
+    sky.zenith_luminance_nits = 1000;
+    scene.set_sky(sky);
+    RenderSettings settings = scene.render_settings();
+    settings.voxels = 32;
+    settings.ambient_occlusion.on = false;
+    RealtimeOptions options;
+    options.width = options.height = 4;
+    std::vector<glm::vec3> seen;
+    for (const auto& [gi, kind] : {std::pair("none", AmbientLight::directional), {"none", AmbientLight::none}, {"vct", AmbientLight::none},
+                                   {"vct", AmbientLight::constant}, {"none", AmbientLight::directional}}) {
+        settings.gi = options.gi = gi;
+        settings.ambient = kind;
+        scene.set_render_settings(RenderSettings(settings));
+        seen.push_back(render(scene, camera_above(4, 0.5f), options).image.rgb(1, 1));
+    }
+    EXPECT_GT(seen[0].y, seen[1].y + 20);
+    EXPECT_NEAR(seen[4].y, seen[0].y, 1e-3f);
 }
 
 TEST_F(Ambient, WhatHidesTheSkyReflectsItsShareOfTheShell) {
@@ -131,10 +226,10 @@ TEST_F(Ambient, WhatHidesTheSkyReflectsItsShareOfTheShell) {
     camera.position = {0, 3, 8};
     camera.target = {0, 0, 0};
     set(scene, AmbientLight::directional, true);
-    const Picture picture = layers(scene, camera, 48, 16, {"ao"});
-    const float open = layer(picture, "ao").at(24, 30);
+    const Picture picture = layers(scene, camera, 32, 8, {"ao"});
+    const float open = layer(picture, "ao").at(16, 20);
     EXPECT_LT(open, 0.99f);
-    EXPECT_NEAR(picture.image.rgb(24, 30).y, 0.5f * 100 * (open + (1 - open) * 0.5f), 0.2f);
+    EXPECT_NEAR(picture.image.rgb(16, 20).y, 0.5f * 100 * (open + (1 - open) * 0.5f), 0.2f);
 }
 
 TEST_F(Ambient, IlluminanceIsWhatSensorsMeasureInBothEngines) {

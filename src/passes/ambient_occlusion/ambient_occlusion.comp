@@ -73,16 +73,49 @@ float pixels_ahead(vec2 from, vec2 step) {
     return min(ahead.x, ahead.y);
 }
 
-/// What is seen at a step ends on average half a step farther: there the angle to its plane, or `front` where that is no
-/// longer near it.
-float angle_onward(Slice slice, vec3 there, vec3 normal, vec2 pixel, float most, float front, float side) {
+/// What one step along the slice shows.
+struct Seen {
+    bool there;
+    vec3 place;
+    vec3 normal;
+    float angle;
+};
+
+Seen look_along(Slice slice, ivec2 at, float side) {
+    const uvec4 packed_place = texelFetch(surface_places, at, 0);
+    const float depth_m = uintBitsToFloat(packed_place.x);
+    Seen seen = Seen(false, frame.position + depth_m * view_ray(at), unpack_direction(packed_place.y), 0.0f);
+    const vec3 offset = seen.place - slice.position;
+    const float distance2 = dot(offset, offset);
+    seen.there = depth_m > 0.0f && distance2 > 0.0f && (push.reach_m <= 0.0f || distance2 <= push.reach_m * push.reach_m);
+    if (seen.there) seen.angle = angle_to(slice, offset, side);
+    return seen;
+}
+
+/// What is seen at a step ends on average half a step farther, at `pixel`: there the angle to its plane, or its own where that
+/// is no longer near it.
+float angle_onward(Slice slice, Seen seen, vec2 pixel, float most, float side) {
     const vec2 at = pixel + frame.jitter;
     const vec3 ray = frame.ray_corner + frame.ray_dx * at.x + frame.ray_dy * at.y;
-    const vec3 seen = there - frame.position;
-    const float depth_m = dot(normal, seen) / dot(normal, ray);
-    const float change = depth_m / dot(seen, frame.forward);
-    if (!(change > 1.0f / most && change < most)) return front;
+    const vec3 offset = seen.place - frame.position;
+    const float depth_m = dot(seen.normal, offset) / dot(seen.normal, ray);
+    const float change = depth_m / dot(offset, frame.forward);
+    if (!(change > 1.0f / most && change < most)) return seen.angle;
     return angle_to(slice, frame.position + depth_m * ray - slice.position, side);
+}
+
+/// Sectors that one step hides; half a step onward is `ratio` times as far off, at `onward`.
+uint hidden_by(Slice slice, Seen seen, Seen before, vec2 onward, float ratio, float side) {
+    float back = side * pi;
+    if (push.thickness_m > 0.0f)
+        back = angle_to(slice, seen.place - slice.position + push.thickness_m * normalize(seen.place - frame.position), side);
+    const uint bits = sectors_between(slice, seen.angle, back) |
+                      sectors_between(slice, seen.angle, angle_onward(slice, seen, onward, ratio, side));
+    // Of one plane nothing lies between two places.
+    const vec3 along = seen.place - before.place;
+    const float rise = max(abs(dot(along, before.normal)), abs(dot(along, seen.normal)));
+    const bool joined = before.there && rise <= in_plane_sine * length(along);
+    return joined ? bits | sectors_between(slice, before.angle, seen.angle) : bits;
 }
 
 /// What the picture shows along one half of the slice.
@@ -95,42 +128,19 @@ uint covered(Slice slice, ivec2 pixel, ConePlace place, float side, float offset
     const float half_step = exp2(0.5f * log2(max(farthest, 1.0f)) / float(push.steps));
     uint bits = 0u;
     ivec2 last = pixel;
-    // What the surface before was: of one plane nothing lies between two places.
-    vec3 before = slice.position;
-    vec3 before_normal = place.geometric;
-    float before_angle = slice.gamma + side * 0.5f * pi;
-    bool before_seen = true;
+    Seen before = Seen(true, slice.position, place.geometric, slice.gamma + side * 0.5f * pi);
     for (uint i = 0u; i < push.steps; ++i) {
         // Steps grow as the distance does, so that all angles and sizes count alike.
         const float ahead = exp2(log2(max(farthest, 1.0f)) * (float(i) + offset) / float(push.steps));
         const ivec2 at = clamp(ivec2(from + step * ahead), ivec2(0), ivec2(frame.width, frame.height) - 1);
         if (at == last || at == pixel) continue;
         last = at;
-        const uvec4 packed_place = texelFetch(surface_places, at, 0);
-        const float depth_m = uintBitsToFloat(packed_place.x);
-        const vec3 ray = view_ray(at);
-        const vec3 there = frame.position + depth_m * ray;
-        const vec3 offset_m = there - slice.position;
-        const float distance2 = dot(offset_m, offset_m);
-        if (depth_m <= 0.0f || distance2 <= 0.0f || (push.reach_m > 0.0f && distance2 > push.reach_m * push.reach_m)) {
-            before_seen = false;
-            continue;
-        }
-        const vec3 normal = unpack_direction(packed_place.y);
-        const float front = angle_to(slice, offset_m, side);
-        const float back = push.thickness_m > 0.0f ? angle_to(slice, offset_m + push.thickness_m * normalize(ray), side) : side * pi;
+        const Seen seen = look_along(slice, at, side);
+        const vec3 away = seen.place - slice.position;
         // The facets of a smooth surface hide nothing from each other.
-        if (dot(offset_m, place.geometric) > in_plane_sine * sqrt(distance2)) {
-            const float onward = angle_onward(slice, there, normal, from + step * ahead * half_step, half_step, front, side);
-            bits |= sectors_between(slice, front, back) | sectors_between(slice, front, onward);
-            const vec3 along = there - before;
-            const vec2 rises = abs(vec2(dot(along, before_normal), dot(along, normal)));
-            if (before_seen && max(rises.x, rises.y) <= in_plane_sine * length(along)) bits |= sectors_between(slice, before_angle, front);
-        }
-        before = there;
-        before_normal = normal;
-        before_angle = front;
-        before_seen = true;
+        if (seen.there && dot(away, place.geometric) > in_plane_sine * length(away))
+            bits |= hidden_by(slice, seen, before, from + step * ahead * half_step, half_step, side);
+        before = seen;
     }
     return bits;
 }
@@ -138,9 +148,8 @@ uint covered(Slice slice, ivec2 pixel, ConePlace place, float side, float offset
 struct Openness {
     vec3 open_sky;   // Σ of weighted radiance, open
     vec3 whole_sky;  // and all
-    float open;
-    float whole;
-    vec3 hidden;  // Σ of weighted directions
+    float hidden;          // Σ of weights, hidden
+    vec3 hidden_way;       // and of weighted directions
 };
 
 vec3 look_at_sky(vec3 direction) {
@@ -165,9 +174,8 @@ void add_slice(Slice slice, uint bits, bool sky, inout Openness sum) {
         const vec3 direction = cos(middle) * slice.to_viewer + sin(middle) * slice.along;
         const uint hidden = bitCount(bitfieldExtract(bits, int(look * sectors_a_look), int(sectors_a_look)));
         const float open = weight * (1.0f - float(hidden) / float(sectors_a_look));
-        sum.whole += weight;
-        sum.open += open;
-        sum.hidden += (weight - open) * direction;
+        sum.hidden += weight - open;
+        sum.hidden_way += (weight - open) * direction;
         if (sky) {
             const vec3 radiance = look_at_sky(direction);
             sum.whole_sky += weight * radiance;
@@ -176,14 +184,16 @@ void add_slice(Slice slice, uint bits, bool sky, inout Openness sum) {
     }
 }
 
+/// Sums of `push.slices`: the weights of one are 1 on average over all.
 Openness openness_of(ivec2 pixel, ConePlace place, vec3 position, bool sky) {
     const vec3 ray = view_ray(pixel);
     const vec3 to_viewer = -normalize(ray);
     const Frame about = frame_from_normal(to_viewer);
     const uint seed = pcg_hash(uint(pixel.x) + pcg_hash(uint(pixel.y)));
     // Roberts 2018 (the plastic number's sequence), moved from pixel to pixel.
-    const vec2 u = fract(vec2(unit_interval(seed), unit_interval(pcg_hash(seed))) + float(frame.sample_index & 0xffffu) * vec2(0.7548776662f, 0.5698402910f));
-    Openness sum = Openness(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, vec3(0.0f));
+    const vec2 moved_by = float(frame.sample_index & 0xffffu) * vec2(0.7548776662f, 0.5698402910f);
+    const vec2 u = fract(vec2(unit_interval(seed), unit_interval(pcg_hash(seed))) + moved_by);
+    Openness sum = Openness(vec3(0.0f), vec3(0.0f), 0.0f, vec3(0.0f));
     for (uint i = 0u; i < push.slices; ++i) {
         const float phi = pi * (u.x + float(i)) / float(push.slices);
         Slice slice;
@@ -194,7 +204,8 @@ Openness openness_of(ivec2 pixel, ConePlace place, vec3 position, bool sky) {
         const float tilt = dot(slice.across, place.geometric);
         slice.slip = (slice.across - tilt * place.geometric) / max(1.0f - tilt * tilt, 1.0e-3f);
         const vec3 moved = slice.along - ray * dot(slice.along, frame.forward);
-        slice.step = normalize(vec2(dot(moved, frame.ray_dx) / dot(frame.ray_dx, frame.ray_dx), dot(moved, frame.ray_dy) / dot(frame.ray_dy, frame.ray_dy)));
+        const vec2 pixels2 = vec2(dot(frame.ray_dx, frame.ray_dx), dot(frame.ray_dy, frame.ray_dy));
+        slice.step = normalize(vec2(dot(moved, frame.ray_dx), dot(moved, frame.ray_dy)) / pixels2);
         const vec2 normal = vec2(dot(place.normal, slice.along), dot(place.normal, to_viewer));
         slice.projected = length(normal);
         slice.gamma = atan(normal.x, normal.y);
@@ -220,7 +231,8 @@ vec3 reflected(ConePlace place, Frame about, vec3 to_viewer, float alpha, vec3 b
     const Cone lobe = specular_cone(to_local(about, to_viewer), alpha);
     const float open = share_open(lobe, to_world(about, lobe.direction), bent, openness);
     vec3 sum = sky ? open * sky_specular(place.normal, to_viewer, sqrt(alpha)) : vec3(0.0f);
-    if (has_ambient) sum += (1.0f - open) * ambient_seen(dominant_reflection(place.normal, reflect(-to_viewer, place.normal), sqrt(alpha)), sky);
+    const vec3 mirror = reflect(-to_viewer, place.normal);
+    if (has_ambient) sum += (1.0f - open) * ambient_seen(dominant_reflection(place.normal, mirror, sqrt(alpha)), sky);
     return sum;
 }
 
@@ -228,24 +240,27 @@ void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, ivec2(frame.width, frame.height))) || frame.batch != 0u) return;
     const ConePlace place = unpack_place(texelFetch(surface_places, pixel, 0));
-    if (place.depth_m <= 0.0f || !(place.rough || place.glossy || place.coated)) return;
+    const bool asks_openness = draws_aov && frame.aov == frame_aov_occlusion;
+    if (place.depth_m <= 0.0f || !(asks_openness || place.rough || place.glossy || place.coated)) return;
     const bool sky = sky_shines(frame.sky_enabled);
     const ConeLobes albedo = unpack_lobes(texelFetch(surface_albedos, pixel, 0), texelFetch(surface_lobes, pixel, 0).x);
     const vec3 ray = view_ray(pixel);
     const vec3 to_viewer = -normalize(ray);
     const Openness found = openness_of(pixel, place, frame.position + place.depth_m * ray, sky);
-    const float openness = clamp(found.open / max(found.whole, 1.0e-6f), 0.0f, 1.0f);
+    // Not the open slices' share of all, whose mean over few is none of the whole's; it may leave 0 to 1 for one sample.
+    const float openness = 1.0f - found.hidden / float(push.slices);
     vec4 value = imageLoad(picture, pixel);
-    if (draws_aov && frame.aov == frame_aov_occlusion) {
+    if (asks_openness) {
         imageStore(picture, pixel, vec4(value.rgb + openness, value.a));
         return;
     }
     vec3 light = vec3(0.0f);
+    // Of the sky the share, which keeps what its picture has between the looks at it.
     if (sky) light += sky_diffuse(place.normal) * found.open_sky / max(found.whole_sky, vec3(1.0e-30f));
     if (has_ambient) light += (1.0f - openness) * ambient_diffuse(place.normal, sky);
     light *= albedo.diffuse;
     // Of an open hemisphere the cosine-weighted mean direction is 2/3 of the normal.
-    const vec3 bent = normalize(place.normal * (2.0f / 3.0f) - found.hidden / max(found.whole, 1.0e-6f) + 1.0e-6f * place.normal);
+    const vec3 bent = normalize(place.normal * (2.0f / 3.0f) - found.hidden_way / float(push.slices) + 1.0e-6f * place.normal);
     const Frame about = frame_from_normal(place.normal);
     if (place.glossy) light += albedo.specular * reflected(place, about, to_viewer, place.alpha, bent, openness, sky);
     if (place.coated) light += albedo.coat * reflected(place, about, to_viewer, place.coat_alpha, bent, openness, sky);

@@ -16,8 +16,8 @@ struct AmbientData {
     uint kind;    // ambient_…
     uint sky_slot;  // what a shell of albedo 1 reflects of the sky: irradiance / π by the normal turned round; or no_texture
     uint light_count;
+    uint in_the_open;  // 1: all of it is added where nothing hides the sky, or nothing tells what does; 0: none of it there
     uint padding0;
-    uint padding1;
 };
 
 SHADING_END

@@ -42,13 +42,15 @@ vec3 ambient_seen(vec3 direction, bool sky) {
     return ambient_data.albedo * sum;
 }
 
-/// Both, nothing hidden.
+bool ambient_in_the_open() { return has_ambient && ambient_data.in_the_open != 0u; }
+
+/// Both, as far as nothing is known to hide the sky.
 vec3 surroundings_diffuse(vec3 normal, bool sky) {
-    return (sky ? sky_diffuse(normal) : vec3(0.0f)) + (has_ambient ? ambient_diffuse(normal, sky) : vec3(0.0f));
+    return (sky ? sky_diffuse(normal) : vec3(0.0f)) + (ambient_in_the_open() ? ambient_diffuse(normal, sky) : vec3(0.0f));
 }
 vec3 surroundings_specular(vec3 normal, vec3 wo, float roughness, bool sky) {
     vec3 sum = sky ? sky_specular(normal, wo, roughness) : vec3(0.0f);
-    if (has_ambient) sum += ambient_seen(dominant_reflection(normal, reflect(-wo, normal), roughness), sky);
+    if (ambient_in_the_open()) sum += ambient_seen(dominant_reflection(normal, reflect(-wo, normal), roughness), sky);
     return sum;
 }
 

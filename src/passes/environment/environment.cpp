@@ -43,6 +43,34 @@ void write_map(gpu::Commands& commands, gpu::Timestamps& timestamps, const gpu::
     commands.transition(image, sampled);
 }
 
+/// The picture of a sky that is a formula, and what the sky shows to glossy surfaces.
+Result<void> record_radiance(gpu::Commands& commands, gpu::Pipelines& pipelines, const EnvironmentMaps& maps, const EnvironmentWork& work,
+                             gpu::Timestamps& timestamps) {
+    auto picture = pipelines.compute("passes/environment/sky_picture.comp");
+    if (!picture) return tl::unexpected(picture.error());
+    auto specular = pipelines.compute("passes/environment/specular.comp");
+    if (!specular) return tl::unexpected(specular.error());
+    if (!work.image)
+        write_map(commands, timestamps, maps.picture, "sky picture", [&] {
+            for (std::uint32_t level = 0; level < maps.picture.mips(); ++level) {
+                const VkExtent3D extent = maps.picture.extent(level);
+                commands.dispatch_threads(**picture, shading::SkyPictureConstants{extent.width, extent.height},
+                                          {maps.picture.mip(level), maps.record}, {extent.width, extent.height, 1});
+            }
+        });
+    const gpu::Image& sky = work.image ? *work.image : maps.picture;
+    write_map(commands, timestamps, maps.specular, "sky specular", [&] {
+        const std::uint32_t count = maps.specular.mips();
+        for (std::uint32_t level = 0; level < count; ++level) {
+            const VkExtent3D extent = maps.specular.extent(level);
+            const float roughness = static_cast<float>(level) / static_cast<float>(count - 1);
+            commands.dispatch_threads(**specular, shading::EnvironmentConstants{extent.width, extent.height, roughness, 0},
+                                      {maps.specular.mip(level), gpu::Binding(sky, work.sampler)}, {extent.width, extent.height, 1});
+        }
+    });
+    return {};
+}
+
 }  // namespace
 
 Result<bool> reserve_environment(gpu::Device& device, EnvironmentMaps& maps, std::uint32_t width) {
@@ -75,31 +103,8 @@ Result<bool> reserve_environment(gpu::Device& device, EnvironmentMaps& maps, std
 
 Result<void> record_environment(gpu::Commands& commands, gpu::Pipelines& pipelines, const EnvironmentMaps& maps,
                                 const EnvironmentWork& work, gpu::Timestamps& timestamps) {
-    auto picture = pipelines.compute("passes/environment/sky_picture.comp");
-    if (!picture) return tl::unexpected(picture.error());
-    auto specular = pipelines.compute("passes/environment/specular.comp");
-    if (!specular) return tl::unexpected(specular.error());
     auto irradiance = pipelines.compute("passes/environment/irradiance.comp");
     if (!irradiance) return tl::unexpected(irradiance.error());
-
-    const gpu::Image& sky = work.image ? *work.image : maps.picture;
-    if (!work.image)
-        write_map(commands, timestamps, maps.picture, "sky picture", [&] {
-            for (std::uint32_t level = 0; level < maps.picture.mips(); ++level) {
-                const VkExtent3D extent = maps.picture.extent(level);
-                commands.dispatch_threads(**picture, shading::SkyPictureConstants{extent.width, extent.height},
-                                          {maps.picture.mip(level), maps.record}, {extent.width, extent.height, 1});
-            }
-        });
-    write_map(commands, timestamps, maps.specular, "sky specular", [&] {
-        const std::uint32_t count = maps.specular.mips();
-        for (std::uint32_t level = 0; level < count; ++level) {
-            const VkExtent3D extent = maps.specular.extent(level);
-            const float roughness = static_cast<float>(level) / static_cast<float>(count - 1);
-            commands.dispatch_threads(**specular, shading::EnvironmentConstants{extent.width, extent.height, roughness, 0},
-                                      {maps.specular.mip(level), gpu::Binding(sky, work.sampler)}, {extent.width, extent.height, 1});
-        }
-    });
     const auto add_up = [&](const gpu::Image& image, const char* name, const gpu::Image& source, bool even) {
         write_map(commands, timestamps, image, name, [&] {
             const VkExtent3D extent = image.extent();
@@ -107,7 +112,10 @@ Result<void> record_environment(gpu::Commands& commands, gpu::Pipelines& pipelin
                               {image, gpu::Binding(source, work.sampler)}, {extent.width, extent.height, 1});
         });
     };
-    add_up(maps.irradiance, "sky irradiance", sky, false);
+    if (work.sky) {
+        if (auto done = record_radiance(commands, pipelines, maps, work, timestamps); !done) return done;
+        add_up(maps.irradiance, "sky irradiance", work.image ? *work.image : maps.picture, false);
+    }
     if (work.reflected) add_up(maps.reflected, "sky reflected", maps.irradiance, work.even);
     return {};
 }

@@ -23,10 +23,11 @@ struct EnvironmentMaps {
 struct EnvironmentWork {
     const gpu::Image* image = nullptr;  ///< of the sky; none of a formula
     VkSampler sampler = VK_NULL_HANDLE;
+    bool sky = true;         ///< draws and filters it; or its maps are there
     bool reflected = false;  ///< also what surroundings reflect
     bool even = false;       ///< its mean over all directions, whatever the normal
 };
-/// Draws the picture of a sky that is a formula (of `maps.record`, uploaded before) and filters the sky.
+/// Draws the picture of a sky that is a formula (of `maps.record`, uploaded before) and filters the sky, as far as is asked.
 [[nodiscard]] Result<void> record_environment(gpu::Commands& commands, gpu::Pipelines& pipelines, const EnvironmentMaps& maps,
                                               const EnvironmentWork& work, gpu::Timestamps& timestamps);
 

@@ -26,6 +26,6 @@ void main() {
     for (uint i = 0u; i < push.light_count; ++i)
         sum += illuminance_from(i, position, normal);
     if (push.sky_enabled != 0u) sum += sky_diffuse(normal) * pi;
-    if (has_ambient && push.ambient_enabled != 0u) sum += ambient_diffuse(normal, push.sky_enabled != 0u) * pi;
+    if (ambient_in_the_open() && push.ambient_enabled != 0u) sum += ambient_diffuse(normal, push.sky_enabled != 0u) * pi;
     sensors[index].illuminance = sum;
 }
