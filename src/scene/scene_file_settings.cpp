@@ -165,7 +165,7 @@ ShadowVolumeSettings read_shadow_volumes(const JsonCursor& cursor) {
     ObjectReader object(cursor);
     ShadowVolumeSettings settings;
     object.read("map_size", settings.map_size, 16, 8192);
-    object.read("significant_px", settings.significant_px, Range{.low = 1e-4, .high = 1e4});
+    object.read("significant_px", settings.significant_px, Range{.low = 1e-3, .high = 1e4});
     object.finish();
     return settings;
 }

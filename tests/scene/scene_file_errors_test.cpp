@@ -299,7 +299,7 @@ const std::vector<BadFile>& bad_files() {
         {"UnknownShadowCascadeKey", R"("render": {"shadow_cascades": {"near": 1}})",
          "$.render.shadow_cascades.near: unknown key; expected count, split, blend, distance_m"},
         {"ShadowVolumesOfNothing", R"("render": {"shadow_volumes": {"significant_px": 0}})",
-         "$.render.shadow_volumes.significant_px: expected a number at least 0.0001 and at most 10000, found 0"},
+         "$.render.shadow_volumes.significant_px: expected a number at least 0.001 and at most 10000, found 0"},
         {"ConeTracingNotAnObject", R"("render": {"vct": true})", "$.render.vct: expected an object, found true"},
         {"AmbientLight", R"("render": {"ambient": "some"})",
          "$.render.ambient: expected one of \"none\", \"constant\", \"directional\", found \"some\""},

@@ -419,6 +419,11 @@ TEST(SceneFile, ReadsHowTheSunCastsItsShadows) {
     EXPECT_EQ(parsed(R"({"heliodon": 1, "render": {"shadow_volumes": {"map_size": 256, "significant_px": 2}}})")
                   .render_settings().shadow_volumes,
               (ShadowVolumeSettings{.map_size = 256, .significant_px = 2}));
+    for (const float limit : {0.001f, 10000.0f})
+        EXPECT_EQ(parsed(fmt::format(R"({{"heliodon": 1, "render": {{"shadow_volumes": {{"significant_px": {}}}}}}})", limit))
+                      .render_settings()
+                      .shadow_volumes.significant_px,
+                  limit);
     const RenderSettings cascades = parsed(R"({"heliodon": 1, "render": {"sun_shadows": "cascades",
         "shadow_cascades": {"count": 8, "split": 1, "blend": 0.25, "distance_m": 100}}})").render_settings();
     EXPECT_EQ(cascades.sun_shadows, SunShadows::cascades);
