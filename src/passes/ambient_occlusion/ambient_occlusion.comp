@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 // The sky's light on each surface, from those directions in which the picture shows nothing before it. As Jimenez, Wu,
 // Pesce & Jarabo 2016 ("Practical Realtime Strategies for Accurate Indirect Occlusion") in slices: planes through the
-// viewer's direction, in each of which the cosine-weighted integral over an angle has a closed form. What is seen along a
-// slice covers the angles from its front to where it ends (Therrien, Levesque & Gilet 2023, "Screen Space Indirect Lighting
-// with Visibility Bitmask"), so that light passes behind it. All samples of a picture turn the slices evenly.
+// viewer's direction, in each of which the cosine-weighted integral over an angle has a closed form. What is seen along
+// a slice covers the angles from its front to where it ends (Therrien, Levesque & Gilet 2023, "Screen Space Indirect
+// Lighting with Visibility Bitmask"), so that light passes behind it. All samples of a picture turn the slices evenly.
 #include "passes/ambient_occlusion/ambient_occlusion_shared.h"
 #include "passes/common/hash.glsl"
 #include "passes/common/sky_light.glsl"
@@ -53,14 +53,15 @@ float slice_integral(float theta, float gamma) {
 
 /// Sectors whose middle lies between two angles.
 uint sectors_between(Slice slice, float a, float b) {
-    const vec2 place = (vec2(min(a, b), max(a, b)) - slice.gamma) * (float(sectors) * inverse_pi) + 0.5f * float(sectors);
+    const vec2 angles = vec2(min(a, b), max(a, b)) - slice.gamma;
+    const vec2 place = angles * (float(sectors) * inverse_pi) + 0.5f * float(sectors);
     const ivec2 ends = ivec2(clamp(round(place), 0.0f, float(sectors)));
     const int count = ends.y - ends.x;
     return count <= 0 ? 0u : (count >= int(sectors) ? ~0u : ((1u << uint(count)) - 1u) << uint(ends.x));
 }
 
-/// Of a place beside the surface. Pixels lie off the slice by up to half of one: they are moved into it along the surface, so
-/// that what lies in its plane stays there.
+/// Of a place beside the surface. Pixels lie off the slice by up to half of one: they are moved into it along the surface,
+/// so that what lies in its plane stays there.
 float angle_to(Slice slice, vec3 offset, float side) {
     const vec3 within = offset - dot(offset, slice.across) * slice.slip;
     return side * acos(clamp(dot(normalize(within), slice.to_viewer), -1.0f, 1.0f));
@@ -87,13 +88,14 @@ Seen look_along(Slice slice, ivec2 at, float side) {
     Seen seen = Seen(false, frame.position + depth_m * view_ray(at), unpack_direction(packed_place.y), 0.0f);
     const vec3 offset = seen.place - slice.position;
     const float distance2 = dot(offset, offset);
-    seen.there = depth_m > 0.0f && distance2 > 0.0f && (push.reach_m <= 0.0f || distance2 <= push.reach_m * push.reach_m);
+    const bool reached = push.reach_m <= 0.0f || distance2 <= push.reach_m * push.reach_m;
+    seen.there = depth_m > 0.0f && distance2 > 0.0f && reached;
     if (seen.there) seen.angle = angle_to(slice, offset, side);
     return seen;
 }
 
-/// What is seen at a step ends on average half a step farther, at `pixel`: there the angle to its plane, or its own where that
-/// is no longer near it.
+/// What is seen at a step ends on average half a step farther, at `pixel`: there the angle to its plane, or its own where
+/// that is no longer near it.
 float angle_onward(Slice slice, Seen seen, vec2 pixel, float most, float side) {
     const vec2 at = pixel + frame.jitter;
     const vec3 ray = frame.ray_corner + frame.ray_dx * at.x + frame.ray_dy * at.y;
@@ -107,8 +109,10 @@ float angle_onward(Slice slice, Seen seen, vec2 pixel, float most, float side) {
 /// Sectors that one step hides; half a step onward is `ratio` times as far off, at `onward`.
 uint hidden_by(Slice slice, Seen seen, Seen before, vec2 onward, float ratio, float side) {
     float back = side * pi;
-    if (push.thickness_m > 0.0f)
-        back = angle_to(slice, seen.place - slice.position + push.thickness_m * normalize(seen.place - frame.position), side);
+    if (push.thickness_m > 0.0f) {
+        const vec3 onward_m = push.thickness_m * normalize(seen.place - frame.position);
+        back = angle_to(slice, seen.place - slice.position + onward_m, side);
+    }
     const uint bits = sectors_between(slice, seen.angle, back) |
                       sectors_between(slice, seen.angle, angle_onward(slice, seen, onward, ratio, side));
     // Of one plane nothing lies between two places.
@@ -215,8 +219,8 @@ Openness openness_of(ivec2 pixel, ConePlace place, vec3 position, bool sky) {
     return sum;
 }
 
-/// Share of a reflection's cone that lies within that of what is open about the bent normal: Oat & Sander 2007 ("Ambient
-/// Aperture Lighting", section 3), the solid angle of two caps' intersection.
+/// Share of a reflection's cone that lies within that of what is open about the bent normal: Oat & Sander 2007
+/// ("Ambient Aperture Lighting", section 3), the solid angle of two caps' intersection.
 float share_open(Cone lobe, vec3 lobe_direction, vec3 bent, float openness) {
     const float open = acos(sqrt(clamp(1.0f - openness, 0.0f, 1.0f)));  // Jimenez et al. 2016: cos² = 1 − openness
     const float wide = acos(1.0f - lobe.one_minus_cos);
@@ -247,7 +251,7 @@ void main() {
     const vec3 ray = view_ray(pixel);
     const vec3 to_viewer = -normalize(ray);
     const Openness found = openness_of(pixel, place, frame.position + place.depth_m * ray, sky);
-    // Not the open slices' share of all, whose mean over few is none of the whole's; it may leave 0 to 1 for one sample.
+    // Unbiased, as the share of the weights of so few slices were not; of one sample it may leave 0 to 1.
     const float openness = 1.0f - found.hidden / float(push.slices);
     vec4 value = imageLoad(picture, pixel);
     if (asks_openness) {
@@ -260,7 +264,8 @@ void main() {
     if (has_ambient) light += (1.0f - openness) * ambient_diffuse(place.normal, sky);
     light *= albedo.diffuse;
     // Of an open hemisphere the cosine-weighted mean direction is 2/3 of the normal.
-    const vec3 bent = normalize(place.normal * (2.0f / 3.0f) - found.hidden_way / float(push.slices) + 1.0e-6f * place.normal);
+    const vec3 open_way = place.normal * (2.0f / 3.0f) - found.hidden_way / float(push.slices);
+    const vec3 bent = normalize(open_way + 1.0e-6f * place.normal);
     const Frame about = frame_from_normal(place.normal);
     if (place.glossy) light += albedo.specular * reflected(place, about, to_viewer, place.alpha, bent, openness, sky);
     if (place.coated) light += albedo.coat * reflected(place, about, to_viewer, place.coat_alpha, bent, openness, sky);
