@@ -224,6 +224,8 @@ Result<Picture> render_picture(const CpuKernel& shared_kernel, const EmbreeScene
         rays += counts.rays;
         non_finite += counts.non_finite;
     };
+    std::optional<IlluminanceLayer> illuminance;
+    if (wants(options, "illuminance")) illuminance.emplace(options.width, options.height);
     const auto add_samples = [&](int end) {
         if (other)
             count(other(work, end));
@@ -235,6 +237,7 @@ Result<Picture> render_picture(const CpuKernel& shared_kernel, const EmbreeScene
                 count(counts);
             });
         work.done = end;
+        if (illuminance) count(illuminance->add_samples(shared_kernel, scene, end));
     };
     const auto finished = [&] {
         if (work.done >= most || (work.adaptive && work.adaptive->finished())) return true;
@@ -261,6 +264,13 @@ Result<Picture> render_picture(const CpuKernel& shared_kernel, const EmbreeScene
     Picture picture;
     bool stopped = false;
     run_on_threads(options.threads, [&] {
+        // Of the samples that a picture to go on from has, illuminance is not kept with it.
+        while (illuminance && !stopped && illuminance->samples() < begin) {
+            const double more = paths_a_pass() / (static_cast<double>(options.width) * options.height);
+            const int end = illuminance->samples() + static_cast<int>(std::clamp(more, 1.0, 1.0 + begin));
+            count(illuminance->add_samples(shared_kernel, scene, std::min(end, begin)));
+            stopped = progress && !progress(fraction());
+        }
         while (!stopped && !finished()) {
             const int end = next_stop();
             const bool check = work.adaptive && end == AdaptiveSampling::next_check(work.done);
@@ -269,8 +279,7 @@ Result<Picture> render_picture(const CpuKernel& shared_kernel, const EmbreeScene
             stopped = progress && !progress(fraction());
         }
         add_surface_layers(shared_kernel, scene, options, work.done, picture);
-        if (wants(options, "illuminance"))
-            picture.layers.push_back({"illuminance", illuminance_layer(shared_kernel, scene, options, work.done)});
+        if (illuminance) picture.layers.push_back({"illuminance", illuminance->image()});
         statistics.seconds = elapsed();
         write_layers(work, options, picture, statistics);
     });

@@ -52,7 +52,7 @@ TEST(Resume, SomeSamplesAndThenMoreAreTheSameBitsAsAllAtOnce) {
     const Scene scene = small_room();
     PathOptions options = options_of(16);
     for (const bool variance : {false, true}) {
-        if (variance) options.aovs = {"direct", "variance", "samples"};
+        if (variance) options.aovs = {"direct", "variance", "samples", "illuminance"};
         const Picture at_once = render(scene, camera(), options);
         for (const int first : {1, 7, 8, 16}) {
             PathOptions part = options;
@@ -66,6 +66,29 @@ TEST(Resume, SomeSamplesAndThenMoreAreTheSameBitsAsAllAtOnce) {
                 EXPECT_EQ(resumed->layers[i].image.pixels, at_once.layers[i].image.pixels) << at_once.layers[i].name;
         }
     }
+}
+
+TEST(Resume, IlluminanceIsStoppedWithThePictureAndItsRaysCount) {
+    const Scene scene = small_room();
+    PathOptions options = options_of(1 << 20);
+    options.seconds = 1000;  // short passes
+    options.aovs = {"illuminance"};
+    PathTracer tracer;
+    ASSERT_TRUE(tracer.update(scene));
+    PathStatistics stopped, all, without;
+    const auto part = tracer.render(scene, camera(), options, &stopped, [](double) { return false; });
+    ASSERT_TRUE(part);
+    EXPECT_TRUE(stopped.stopped);
+    ASSERT_LT(stopped.samples_per_pixel, 1000);
+    options = options_of(stopped.samples_per_pixel);
+    ASSERT_TRUE(tracer.render(scene, camera(), options, &without));
+    options.aovs = {"illuminance"};
+    const auto whole = tracer.render(scene, camera(), options, &all);
+    ASSERT_TRUE(whole);
+    EXPECT_EQ(layer(*part, "illuminance").pixels, layer(*whole, "illuminance").pixels);
+    EXPECT_GT(layer(*part, "illuminance").at(10, 6), 0);
+    EXPECT_EQ(stopped.rays, all.rays);
+    EXPECT_GT(all.rays, 3 * without.rays / 2);
 }
 
 TEST(Resume, AStoppedAdaptiveRenderEndsAsIfItHadNotBeenStopped) {
