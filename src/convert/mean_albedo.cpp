@@ -1,5 +1,6 @@
 #include "convert/mean_albedo.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -63,27 +64,46 @@ glm::vec3 mean_vertex_color(const Mesh& mesh) {
     return mesh.colors.empty() ? glm::vec3(1) : glm::vec3(sum / static_cast<double>(mesh.colors.size()));
 }
 
+/// Turning a thing rounds its metric; areas that differ by so little are one.
+bool same_metric(const glm::mat3& a, const glm::mat3& b) {
+    float difference = 0, size = 0;
+    for (int i = 0; i < 9; ++i) {
+        difference = std::max(difference, std::abs(a[i / 3][i % 3] - b[i / 3][i % 3]));
+        size = std::max(size, std::abs(b[i / 3][i % 3]));
+    }
+    return difference <= 1e-5f * size;
+}
+
 }  // namespace
 
-glm::vec3 mean_albedo(const FlatScene& scene) {
+glm::vec3 MeanAlbedo::of(const FlatScene& scene, std::span<const std::uint64_t> mesh_revisions) {
     std::map<std::uint32_t, glm::vec3> plain;  // by material, where no vertex colours change it
     glm::dvec3 sum(0);
     double area = 0;
-    for (const InstanceData& instance : scene.instances()) {
+    parts_.resize(scene.instances().size());
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const InstanceData& instance = scene.instances()[i];
         const MaterialData& material = scene.materials()[instance.material];
         const Geometry* geometry = (instance.flags & instance_flag_visible) != 0 ? scene.geometries()[instance.geometry] : nullptr;
         if (!geometry || !is_opaque(material)) continue;
-        const double part = world_area(geometry->mesh, glm::mat3(instance.object_to_world));
+        const Mesh& mesh = geometry->mesh;
+        const glm::mat3 object_to_world(instance.object_to_world), metric = glm::transpose(object_to_world) * object_to_world;
+        const std::uint64_t revision = mesh_revisions[instance.geometry];
+        Part& part = parts_[i];
+        if (part.geometry != instance.geometry || part.revision != revision || !same_metric(metric, part.metric)) {
+            part = {instance.geometry, revision, metric, world_area(mesh, object_to_world), mean_vertex_color(mesh)};
+            ++measured_;
+        }
         glm::vec3 reflected;
-        if (!geometry->mesh.colors.empty()) {
-            reflected = albedo(scene, material, mean_vertex_color(geometry->mesh));
+        if (!mesh.colors.empty()) {
+            reflected = albedo(scene, material, part.vertex_color);
         } else {
             const auto found = plain.find(instance.material);
             reflected = found != plain.end() ? found->second
                                              : plain.emplace(instance.material, albedo(scene, material, glm::vec3(1))).first->second;
         }
-        sum += part * glm::dvec3(reflected);
-        area += part;
+        sum += part.area_m2 * glm::dvec3(reflected);
+        area += part.area_m2;
     }
     return area > 0 ? glm::vec3(sum / area) : glm::vec3(0);
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "convert/mean_albedo.h"
 #include "gpu/device.h"
 #include "gpu/pipeline.h"
 #include "gpu/timestamps.h"
@@ -301,6 +302,7 @@ private:
     passes::EnvironmentMaps sky_maps_;
     std::optional<std::uint32_t> sky_specular_slot_, sky_irradiance_slot_, sky_picture_slot_, sky_reflected_slot_;
     AmbientKey ambient_key_;
+    convert::MeanAlbedo mean_albedo_;
     AmbientLight reflected_sky_ = AmbientLight::none;  // what the shell's map is filtered for
     shading::AmbientOcclusionConstants occlusion_{};
     std::deque<gpu::TimelineValue> in_flight_;

@@ -1,5 +1,4 @@
 // FrameRenderer: light without global illumination. What stands for that of surroundings, and what hides the sky.
-#include "convert/mean_albedo.h"
 #include "realtime/area_light.h"
 #include "realtime/frame_renderer.h"
 #include "shading/ambient.h"
@@ -43,7 +42,7 @@ Result<void> FrameRenderer::set_ambient(const AmbientKey& key) {
     const convert::FlatScene& flat = gpu_scene_.flat();
     const bool mapped = sky_maps_.specular.handle() != VK_NULL_HANDLE;
     GpuScene::Ambient ambient;
-    ambient.data.albedo = convert::mean_albedo(flat);
+    ambient.data.albedo = mean_albedo_.of(flat, gpu_scene_.geometry_revisions());
     ambient.data.kind = ambient_kind(key.kind);
     ambient.data.in_the_open = key.in_the_open ? 1 : 0;
     ambient.data.sky_slot = mapped ? *sky_reflected_slot_ : shading::no_texture;
