@@ -19,6 +19,7 @@ constexpr std::uint32_t views_a_turn = 384;
 constexpr std::uint64_t shadow_budget_bytes = 512ull << 20;
 constexpr std::uint64_t shadow_texel_bytes = 8;  // depth and slope
 constexpr std::uint32_t smallest_shadow_layers = 6;  // one cube
+constexpr std::uint32_t fewest_shadow_views = std::max(6, most_shadow_cascades + 1);  // of one light: a cube's, or cascades
 // What shadow views may draw: a command an instance, view and draw list.
 constexpr std::uint64_t shadow_draw_budget_bytes = 256ull << 20;
 constexpr std::uint32_t most_shadow_views = 65535;  // culling counts them in one dimension of a dispatch
@@ -31,7 +32,7 @@ ShadowBudget shadow_budget(const gpu::Device& device, int size, std::uint32_t in
     budget.layers = std::clamp(static_cast<std::uint32_t>(shadow_budget_bytes / layer_bytes), smallest_shadow_layers,
                                device.limits().maxImageArrayLayers);
     budget.views = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(shadow_draw_budget_bytes / view_bytes,
-                                                                        smallest_shadow_layers, most_shadow_views));
+                                                                        fewest_shadow_views, most_shadow_views));
     return budget;
 }
 
@@ -99,10 +100,12 @@ void FrameRenderer::fit_shadow_maps(const Camera& camera, const FrameSample& sam
         const Bounds& bounds = gpu_scene_.bounds();
         detail = shadow_detail(camera_frame(camera, bounds, wanted_.width, wanted_.height, glm::vec2(0)), bounds);
         cascades = shadow_cascades(settings_.shadow_cascades, *detail);
-        cascades.whole_scene = sample.cone_traced;
+        // What a picture asks for without cones leaves the voxels' light as it is.
+        const bool traced = sample.cone_traced || settings_.gi == "vct";
+        cascades.whole_scene = traced;
         const glm::vec3 extent = bounds.extent();
         const float longest = std::max({extent.x, extent.y, extent.z});
-        if (sample.cone_traced) detail->voxel_m = std::ldexp(longest / static_cast<float>(settings_.voxels), 1 - settings_.cascades);
+        if (traced) detail->voxel_m = std::ldexp(longest / static_cast<float>(settings_.voxels), 1 - settings_.cascades);
         if (!shadow_maps_fit_picture_ || plan_.batches.size() > 1) detail.reset();
     }
     cascades.light_without_maps = light_without_maps(sample);
@@ -155,8 +158,11 @@ std::vector<shading::ShadowViewData> FrameRenderer::shadow_views_at(std::span<co
     if (sample.jitter_shadows) jitter = sample_position(sample.shadow_index, 0, sample.seed) - 0.5f;
     auto result = shadow_views(views, placed_lights_, gpu_scene_.bounds(), jitter, cascades_);
     if (sample.jitter_shadows) return result;  // each is of one point of the light
+    // Of half the sky the largest that is a number.
+    const float widest = std::nextafter(glm::half_pi<float>(), 0.0f);
     for (std::size_t i = 0; i < views.size(); ++i)
-        if (result[i].kind == shading::shadow_kind_orthographic) result[i].disc_tangent = std::tan(lights_[views[i].light].radius);
+        if (result[i].kind == shading::shadow_kind_orthographic)
+            result[i].disc_tangent = std::tan(std::min(lights_[views[i].light].radius, widest));
     return result;
 }
 

@@ -288,7 +288,7 @@ ShadowPlan plan_shadows(std::span<const LightData> lights, const Bounds& scene, 
         if (!shines(lights[i])) continue;
         const bool cube = needs_cube(lights[i]);
         const std::uint32_t count = view_count(lights[i], cascades.count);
-        if (batch.view_count + count > most_views) {
+        if (batch.light_count > 0 && batch.view_count + count > most_views) {
             plan.batches.push_back(batch);
             batch = {static_cast<std::uint32_t>(plan.active_lights.size()), 0, static_cast<std::uint32_t>(plan.views.size()), 0};
         }

@@ -211,6 +211,14 @@ TEST(ShadowPlan, LightsBeyondTheBudgetOfViewsGoToFurtherBatchesAndHolesNowhere) 
     }
 }
 
+TEST(ShadowPlan, NoBatchIsEmptyWhereOneLightAsksForMoreViewsThanThereAre) {
+    auto lights = point_lights(2);
+    for (auto& light : lights) light.type = shading::light_type_directional;
+    const auto plan = realtime::plan_shadows(lights, unit_room, {.layer_size = 256, .layers = 12, .views = 6}, nullptr, {.count = 8});
+    ASSERT_EQ(plan.batches.size(), 2u);
+    for (const auto& batch : plan.batches) EXPECT_EQ(batch.light_count, 1u);
+}
+
 TEST(ShadowPlan, MapsThatDoNotFitShareLayersTheBrightestLightsTheLargest) {
     auto lights = point_lights(300);
     for (std::size_t i = 0; i < lights.size(); ++i) lights[i].intensity *= 1.0f + static_cast<float>(i % 7);

@@ -7,6 +7,7 @@
 #include "gi_live.h"
 #include "realtime/camera_frame.h"
 #include "realtime/shadow_plan.h"
+#include "shading/light.h"
 
 namespace heliodon::tests {
 namespace {
@@ -217,36 +218,96 @@ TEST_F(ShadowCascadesSeen, AShadowsEdgeGoesOnAcrossTheirBorders) {
     }
 }
 
-TEST_F(ShadowCascadesSeen, ALivePenumbraIsAsWideAsTheSunsDiscMakesIt) {
+/// A sheet's straight edge between a floor and a light above.
+struct EdgeAbove {
     Scene scene;
-    const MaterialId white = scene.add_material(lambert(glm::vec3(1)));
-    add_floor(scene, 10, white);
-    const NodeId sheet = add_shape_node(scene, Quad{{-9, 0, -9}, {0, 0, 18}, {9, 0, 0}}, white);
+    NodeId sheet;
+    EdgeAbove() {
+        const MaterialId white = scene.add_material(lambert(glm::vec3(1)));
+        add_floor(scene, 10, white);
+        sheet = add_shape_node(scene, Quad{{-9, 0, -9}, {0, 0, 18}, {9, 0, 0}}, white);
+        set_cascades(scene, {}, 2048);
+    }
+};
+
+/// Across the picture: how much light comes in, and its mean place and standard deviation in metres.
+struct Profile {
+    double mass = 0, middle = 0, deviation = 0;
+    Profile(const Image& image, float half) {
+        const int size = image.width, rows = size / 2;
+        double first = 0, second = 0;
+        for (int x = 0; x + 1 < size; ++x) {
+            double step = 0;
+            for (int y = size / 4; y < size / 4 + rows; ++y) step += (image.at(x + 1, y) - image.at(x, y)) / rows;
+            const double at = (2.0 * (x + 1) / size - 1) * half;
+            mass += step, first += step * at, second += step * at * at;
+        }
+        middle = first / mass;
+        deviation = std::sqrt(second / mass - middle * middle);
+    }
+};
+
+TEST_F(ShadowCascadesSeen, ALivePenumbraIsAsWideAsTheSunsDiscMakesIt) {
+    EdgeAbove edge;
+    Scene& scene = edge.scene;
     const NodeId sun = add_disc_sun(scene, {0, -1, 0}, glm::vec3(pi), 1);
-    set_cascades(scene, {}, 2048);
     for (const float diameter_deg : {0.53f, 2.0f, 5.0f})
         for (const float height : {1.0f, 2.0f, 4.0f}) {
-            ASSERT_TRUE(scene.set_transform(sheet, Transform{.translation = {0, height, 0}}));
+            ASSERT_TRUE(scene.set_transform(edge.sheet, Transform{.translation = {0, height, 0}}));
             Light disc = *scene.nodes().find(sun)->light;
             disc.angular_diameter_rad = glm::radians(diameter_deg);
             ASSERT_TRUE(scene.set_light(sun, disc));
             const float expected = height * 2 * std::tan(glm::radians(0.5f * diameter_deg));
-            // The profile's derivative is the disc's chords: their variance is a quarter of its radius squared.
-            constexpr int size = 96;
             const float half = 1.2f * expected;
-            const Image image = render(scene, camera_above(1.5f * half, half), size);
-            double mass = 0, first = 0, second = 0;
-            for (int x = 0; x + 1 < size; ++x) {
-                double step = 0;
-                for (int y = 24; y < 72; ++y) step += (image.at(x + 1, y) - image.at(x, y)) / 48;
-                const double at = (2.0 * (x + 1) / size - 1) * half;
-                mass += step, first += step * at, second += step * at * at;
-            }
-            const double width = 4 * std::sqrt(second / mass - first * first / (mass * mass));
-            EXPECT_NEAR(mass, 1, 0.02) << diameter_deg << "° " << height << " m";
-            EXPECT_NEAR(first / mass, 0, 0.03 * expected) << diameter_deg << "° " << height << " m";
-            EXPECT_NEAR(width, expected, 0.02 * expected) << diameter_deg << "° " << height << " m";
+            const Profile profile(render(scene, camera_above(1.5f * half, half), 96), half);
+            EXPECT_NEAR(profile.mass, 1, 0.02) << diameter_deg << "° " << height << " m";
+            EXPECT_NEAR(profile.middle, 0, 0.03 * expected) << diameter_deg << "° " << height << " m";
+            // The profile's derivative is the disc's chords: their variance is a quarter of its radius squared.
+            EXPECT_NEAR(4 * profile.deviation, expected, 0.02 * expected) << diameter_deg << "° " << height << " m";
         }
+}
+
+TEST_F(ShadowCascadesSeen, ThePenumbraOfTheSkysSunIsNarrowerByItsDarkLimb) {
+    const float half = 0.08f, height = 2, diameter_rad = glm::radians(2.0f);
+    EdgeAbove edge;
+    ASSERT_TRUE(edge.scene.set_transform(edge.sheet, Transform{.translation = {0, height, 0}}));
+    const auto deviation = [&] {
+        RealtimeOptions options;
+        options.width = options.height = 96;
+        options.samples = 1;
+        options.environment = false;
+        return Profile(render(edge.scene, camera_above(1.5f * half, half), options).image, half).deviation;
+    };
+    Sky daylight;
+    daylight.model = SkyModel::preetham;
+    daylight.sun_elevation_rad = 0.5f * pi;
+    daylight.sun_angular_diameter_rad = diameter_rad;
+    edge.scene.set_sky(daylight);
+    const double darkened = deviation();
+    edge.scene.set_sky({});
+    add_disc_sun(edge.scene, {0, -1, 0}, glm::vec3(pi), glm::degrees(diameter_rad));
+    // The variance across a disc is half its mean squared radius.
+    double light = 0, squares = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const double square = (i + 0.5) / 1000, luminance = shading::limb_darkening(static_cast<float>(square));
+        light += luminance, squares += luminance * square;
+    }
+    const double narrower = std::sqrt(2 * squares / light);
+    EXPECT_LT(narrower, 0.98);
+    EXPECT_NEAR(darkened / deviation(), narrower, 0.005);
+}
+
+TEST_F(ShadowCascadesSeen, ADiscAsWideAsTheSkyIsHalfHiddenByAnEdgeAbove) {
+    EdgeAbove edge;
+    ASSERT_TRUE(edge.scene.set_transform(edge.sheet, Transform{.translation = {0, 1, 0}}));
+    const NodeId sun = add_disc_sun(edge.scene, {0, -1, 0}, glm::vec3(pi), 1);
+    for (const float diameter_deg : {90.0f, 150.0f, 180.0f}) {
+        Light disc = *edge.scene.nodes().find(sun)->light;
+        disc.angular_diameter_rad = glm::radians(diameter_deg);
+        ASSERT_TRUE(edge.scene.set_light(sun, disc));
+        const Image image = render(edge.scene, camera_above(0.5f, 0.02f), 4);
+        for (const float value : image.pixels) EXPECT_NEAR(value, 0.5f, 0.08f) << diameter_deg;
+    }
 }
 
 /// A street of houses of several heights with a hedge of posts, in the evening.

@@ -8,6 +8,7 @@
 #define HELIODON_SHADOW_LOOKUP_GLSL
 #extension GL_EXT_control_flow_attributes : require
 #include "passes/common/scene_tables.glsl"
+#include "shading/light.h"
 
 layout(set = 0, binding = 9, std430) readonly buffer ShadowViews { ShadowViewData shadow_views[]; };
 layout(set = 0, binding = 10) uniform sampler2DArray shadow_maps;
@@ -92,6 +93,8 @@ float blocker_distance(ShadowViewData view, ReceiverPlane plane, ivec2 texel, in
 
 // As shadow_filter_nearest, of a receiver that stands off every surface: what lies beyond it is not between it and the light.
 const uint shadow_filter_free = 2u;
+// As shadow_filter_contact_hardening, of the sun, whose disc is darker towards its limb.
+const uint shadow_filter_sun = 4u;
 
 /// Percentage-closer filtering (Reeves, Salesin & Cook 1987) over the four nearest texels, the nearest
 /// first, or that one alone. Texels that look past the edge of the receiver's surface have no say: through
@@ -121,11 +124,28 @@ float filtered_by_texels(ShadowViewData view, ReceiverPlane plane, vec2 position
 const int search_taps = 16;
 const int disc_taps = 32;
 
-/// Points evenly over the unit disc, from its middle outwards (Vogel 1979, "A better way to construct the sunflower head").
-vec2 disc_point(int index, int count) {
+/// One of several points evenly over the solid angle of a light's disc.
+struct DiscPoint {
+    vec2 at;        // across the light, where the disc's edge is 1 away
+    float radius;   // there, of the disc of its share
+    float sine2;    // of its angle to the middle, where the edge's is 1
+};
+
+/// From the middle outwards (Vogel 1979, "A better way to construct the sunflower head"). `tangent`: of the angular radius.
+DiscPoint disc_point(int index, int count, float tangent) {
     const float golden_angle = 2.3999632f;
     const float angle = float(index) * golden_angle;
-    return sqrt((float(index) + 0.5f) / float(count)) * vec2(cos(angle), sin(angle));
+    const float share = (float(index) + 0.5f) / float(count);
+    const float secant = sqrt(1.0f + tangent * tangent);
+    const float scale = 1.0f / (secant * (secant + 1.0f));  // (1 − cos) / tan², exact for small discs too
+    const float whole = tangent * tangent * scale;          // 1 − cos of the angular radius
+    const float cosine = 1.0f - share * whole;
+    DiscPoint point;
+    point.at = sqrt(share * scale * (1.0f + cosine)) / cosine * vec2(cos(angle), sin(angle));
+    // A plane across the light holds 1 / cos³ as much area for a solid angle.
+    point.radius = sqrt(2.0f * scale / (float(count) * cosine)) / cosine;
+    point.sine2 = share * (1.0f + cosine) / (2.0f - whole);
+    return point;
 }
 
 /// What a lookup about a receiver knows of the disc of a directional light.
@@ -139,7 +159,9 @@ struct Penumbra {
 /// What stands before the receiver `offset` metres beside it, in metres along the light: 0 where nothing does, or nothing so
 /// far off that the map shows its penumbra; below 0 outside the map. Outside the cone to the disc it stands before the receiver's plane.
 float far_blocker(ShadowViewData view, ReceiverPlane plane, vec2 position, Penumbra penumbra, vec2 offset) {
-    const ivec2 texel = ivec2(floor(position + offset * penumbra.texels_a_metre));
+    // The cone to a wide disc leaves the map by more texels than an integer counts.
+    const vec2 place = clamp(position + offset * penumbra.texels_a_metre, vec2(-1.0f), vec2(penumbra.size));
+    const ivec2 texel = ivec2(floor(place));
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(penumbra.size)))) return -1.0f;
     const float distance_m = blocker_distance(view, plane, texel, penumbra.size);
     if (distance_m < penumbra.far_m) return 0.0f;
@@ -153,11 +175,12 @@ float mean_blocker(ShadowViewData view, ReceiverPlane plane, vec2 position, Penu
     float blockers = 0.0f;
     bool all_hide = true;
     [[dont_unroll]] for (int i = 0; i < search_taps; ++i) {
-        const vec2 offset = disc_point(i, search_taps) * radius;
+        const DiscPoint point = disc_point(i, search_taps, view.disc_tangent);
+        const vec2 offset = point.at * radius;
         const float distance_m = far_blocker(view, plane, position, penumbra, offset);
         if (distance_m < 0.0f) continue;
-        // A tap stands for a disc about it of its share of the area.
-        all_hide = all_hide && distance_m > 0.0f && length(offset) - radius * inversesqrt(float(search_taps)) <= distance_m * view.disc_tangent;
+        const float nearest = length(offset) - point.radius * radius;
+        all_hide = all_hide && distance_m > 0.0f && nearest <= distance_m * view.disc_tangent;
         if (distance_m == 0.0f) continue;
         sum += distance_m;
         blockers += 1.0f;
@@ -182,8 +205,9 @@ uint ray_tap(ShadowViewData view, ReceiverPlane plane, vec2 position, Penumbra p
 
 /// Share of the light's disc that the receiver sees: a penumbra as wide as the disc looks from what stands in the way
 /// (Fernando 2005, "Percentage-Closer Soft Shadows"; a disc at infinity makes it distance · 2 tan of its angular radius).
-/// What stands so near that its penumbra is no wider than texels is filtered by them.
-float contact_hardened(ShadowViewData view, ReceiverPlane plane, vec2 position, int size) {
+/// What stands so near that its penumbra is no wider than texels is filtered by them, and taken to hide its share of what
+/// the far leaves. A setting sun is taken as its whole disc about the middle of what is above the horizon.
+float contact_hardened(ShadowViewData view, ReceiverPlane plane, vec2 position, int size, bool sun) {
     Penumbra penumbra;
     penumbra.texels_a_metre = 0.5f * float(size) / vec2(length(view.axis_u), length(view.axis_v));
     penumbra.texel_m = 1.0f / max(penumbra.texels_a_metre.x, penumbra.texels_a_metre.y);
@@ -203,10 +227,12 @@ float contact_hardened(ShadowViewData view, ReceiverPlane plane, vec2 position, 
     float lit = 0.0f;
     float known = 0.0f;
     [[dont_unroll]] for (int i = 0; i < disc_taps; ++i) {
-        const uint tap = ray_tap(view, plane, position, penumbra, disc_point(i, disc_taps), distance_m * view.disc_tangent);
+        const DiscPoint point = disc_point(i, disc_taps, view.disc_tangent);
+        const uint tap = ray_tap(view, plane, position, penumbra, point.at, distance_m * view.disc_tangent);
         if (tap == tap_beyond) continue;  // the map
-        known += 1.0f;
-        lit += tap == tap_blocked ? 0.0f : 1.0f;
+        const float weight = sun ? limb_darkening(point.sine2) : 1.0f;
+        known += weight;
+        lit += tap == tap_blocked ? 0.0f : weight;
     }
     return known > 0.0f ? near * lit / known : near;
 }
@@ -214,7 +240,9 @@ float contact_hardened(ShadowViewData view, ReceiverPlane plane, vec2 position, 
 float shadow_in_view(ShadowViewData view, ReceiverPlane plane, uint filter_mode) {
     const int size = int(view.size);
     const vec2 position = (plane.at * vec2(0.5f, -0.5f) + 0.5f) * float(size);
-    if (filter_mode == shadow_filter_contact_hardening && view.disc_tangent > 0.0f) return contact_hardened(view, plane, position, size);
+    const bool sun = filter_mode == shadow_filter_sun;
+    if ((sun || filter_mode == shadow_filter_contact_hardening) && view.disc_tangent > 0.0f)
+        return contact_hardened(view, plane, position, size, sun);
     return filtered_by_texels(view, plane, position, size, filter_mode, 0.0f);
 }
 
@@ -257,7 +285,8 @@ float light_visibility(LightData light, vec3 point, vec3 normal, uint filter_mod
     uint view = light.shadow & 0x7fffffffu;
     const bool cube = (light.shadow & 0x80000000u) != 0u;
     if (cube) view += cube_face(point - light.position);
-    return shadow_in_views(view, point, normal, filter_mode);
+    const bool sun = filter_mode == shadow_filter_contact_hardening && light.opening == opening_sun;
+    return shadow_in_views(view, point, normal, sun ? shadow_filter_sun : filter_mode);
 }
 
 #endif
