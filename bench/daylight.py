@@ -35,7 +35,9 @@ class Scene:
 
 
 REALTIME = ["--gi", "vct", "--voxels", "256", "--set", "render.cascades=3"]
-MODES = {"one frame": ["--spp", "1"], "64 frames": ["--spp", "64"], "64 frames, 36 cones": ["--spp", "64", "--set", "render.vct.cones=36"]}
+NARROW = ["--set", "render.vct.narrow=true"]
+MODES = {"one frame": ["--spp", "1"], "64 frames": ["--spp", "64"], "64 frames, narrow": ["--spp", "64", *NARROW],
+         "64 frames, narrow, 36 cones": ["--spp", "64", *NARROW, "--set", "render.vct.cones=36"]}
 SHADOWS = {"cascades": [], "volumes": ["--set", "render.sun_shadows=volumes"]}
 
 

@@ -240,6 +240,7 @@ Result<void> FrameRenderer::render_batch(const Camera& camera, const FrameSample
     frame.cone_traced = sample.cone_traced ? 1 : 0;
     // Live, a picture in motion has the cones in the middle of their cells; all other samples fill the cells.
     if (sample.index > 0 || sample.count > 1) frame.cone_shift = sample_position(sample.index, sample.count, sample.seed + 1);
+    frame.cone_share = settings_.vct.narrow ? 1.0f / static_cast<float>(std::max(sample.count, sample.index + 1)) : 1.0f;
     frame.shadow_filter = sample.jitter_shadows ? shading::shadow_filter_nearest : shading::shadow_filter_contact_hardening;
     frame.fragment_capacity = wanted_.fragment_capacity;
     frame.random_seed = sample.index * 9781u + sample.seed;

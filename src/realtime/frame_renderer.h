@@ -156,7 +156,7 @@ private:
     struct VolumeKey {
         std::uint64_t scene = ~0ull, placement = ~0ull, shadow_places = 0;
         int bounces = 0;
-        bool sky = true;
+        bool sky = true, narrow = false;
         float radiance_unit = 1;
         std::uint32_t effects = 0;
         bool operator==(const VolumeKey&) const = default;

@@ -31,6 +31,17 @@ VoxelVolume::Gather next_gather(int index, int converging) {
     return {sample_position(static_cast<std::uint32_t>(set), 0, 0), 1.0f / static_cast<float>(set + 1)};
 }
 
+/// Set `set` of a still picture, from 1. Cones that share the hemisphere with those of the other sets see past what wide ones
+/// blur, so that light comes to another rest than by the one wide set before: later sets weigh more (Shamir & Zhang 2013,
+/// polynomial-decay averaging, η = 1), the first forgets what was.
+VoxelVolume::Gather still_gather(int set, bool narrow) {
+    if (!narrow) return next_gather(set, 1);
+    VoxelVolume::Gather gather{sample_position(static_cast<std::uint32_t>(set), 0, 0)};
+    gather.weight = 2.0f / static_cast<float>(set + 1);
+    gather.share = 1.0f / static_cast<float>(still_gather_sets - 1);
+    return gather;
+}
+
 std::uint32_t effect_bits(const ConeTracingSettings& vct) {
     return (vct.diffuse ? shading::gi_effect_diffuse : 0) | (vct.specular ? shading::gi_effect_specular : 0) |
            (vct.refraction ? shading::gi_effect_refraction : 0) | (vct.shadows ? shading::gi_effect_shadows : 0) |
@@ -67,6 +78,7 @@ Result<void> FrameRenderer::update_volume(const Camera& camera, const FrameSampl
     wanted.sky = sample.environment;
     // What else the light of voxels depends on: whether the sky is occluded, and how shadows are found.
     wanted.effects = effect_bits(settings_.vct) & (shading::gi_effect_occlusion | shading::gi_effect_shadows);
+    wanted.narrow = settings_.vct.narrow;
     // What the camera exposes for lies in the middle of half precision; powers of two change no digit.
     wanted.radiance_unit = std::exp2(std::floor(camera.ev100()));
 
@@ -197,7 +209,7 @@ Result<void> FrameRenderer::converge_volume(const FrameSample& sample) {
     }
     // With all bounces the light is at rest, and more sets of cones only make it finer.
     for (int set = 1; settings_.bounces == 0 && set < still_gather_sets; ++set)
-        if (auto done = bounce(next_gather(set, 1)); !done) return done;
+        if (auto done = bounce(still_gather(set, settings_.vct.narrow)); !done) return done;
     relight_ = false;
     bounce_frames_ = most_live_frames;
     return {};

@@ -404,6 +404,7 @@ Result<void> VoxelVolume::set_gather(const Gather& gather) {
         cascade->gathered_known = true;
         cascade->constants.gather_shift = gather.shift;
         cascade->constants.gather_weight = gather.weight;
+        cascade->constants.gather_share = gather.share;
     }
     // Light is gathered from the texture as it is, by the cones of now.
     shading::VolumeData before = current_;

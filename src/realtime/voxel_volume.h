@@ -51,6 +51,7 @@ public:
     struct Gather {
         glm::vec2 shift{0};   ///< of diffuse_cone()
         float weight = 1.0f;  ///< against what was gathered before
+        float share = 1.0f;   ///< of diffuse_cone()
         std::optional<int> side;  ///< of the six, by its faces alone and those that have not gathered yet
     };
     [[nodiscard]] Result<void> record_bounce(gpu::Commands& commands, gpu::Timestamps* timestamps,

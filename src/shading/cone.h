@@ -28,8 +28,9 @@ SHADING_CONST uint cones_per_set = 9u;
 /// nine cells of equal area: three round the normal (sin² θ in [0, 1/3]), six about them. Each set has one point
 /// in each cell, together a Hammersley set, moved round the cell by `shift` in [0, 1)² (Cranley & Patterson
 /// 1976): (0, 0) leaves it centred (one set: the cells' middles), and the mean over even shifts is without bias. A
-/// cone has the solid angle of its cell / set_count, so that all of them have the hemisphere's.
-SHADING_FN Cone diffuse_cone(uint cone, uint set_index, uint set_count, vec2 shift) {
+/// cone has the solid angle of its cell / set_count, so that all of them have the hemisphere's; where 1 / `share` such
+/// hemispheres of cones are averaged, at as many shifts, it has `share` of that, and they have it together.
+SHADING_FN Cone diffuse_cone(uint cone, uint set_index, uint set_count, vec2 shift, float share) {
     bool inner = cone < 3u;
     float sectors = inner ? 3.0f : 6.0f;
     float sector = float(inner ? cone : cone - 3u);
@@ -40,7 +41,7 @@ SHADING_FN Cone diffuse_cone(uint cone, uint set_index, uint set_count, vec2 shi
     float boundary = 0.816496580927726f;  // √(2/3): cos θ where sin² θ = 1/3
     Cone result;
     result.direction = vec3(sine * cos(phi), sine * sin(phi), sqrt(max(0.0f, 1.0f - sin2)));
-    result.one_minus_cos = (inner ? 1.0f - boundary : boundary) / (sectors * float(set_count));
+    result.one_minus_cos = (inner ? 1.0f - boundary : boundary) / (sectors * float(set_count)) * share;
     result.tan_half_angle = tan_from_one_minus_cos(result.one_minus_cos);
     result.weight = 1.0f / float(cones_per_set * set_count);
     return result;

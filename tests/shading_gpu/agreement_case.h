@@ -203,7 +203,7 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
         return vec4(cone.direction, cone.one_minus_cos);
     }
     if (k == 16u) {
-        Cone cone = diffuse_cone(i % 9u, i % 4u, 4u, vec2(v));
+        Cone cone = diffuse_cone(i % 9u, i % 4u, 4u, vec2(v), 0.5f);
         return vec4(cone.direction, cone.tan_half_angle);
     }
     if (k == 17u) {

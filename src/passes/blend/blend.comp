@@ -56,7 +56,7 @@ void main() {
         if (passing >= 1.0f) continue;
         vec3 radiance = vec3(0.0f);
         if (opacity > 0.0f) radiance = surface_radiance(point, frame, pcg_hash(seed + fragment.instance + pcg_hash(fragment.triangle)));
-        if (opacity > 0.0f && cone_traced && frame.batch == 0u) radiance += indirect_reflected(point, frame.cone_shift, solid_diagonal(fragment.instance));
+        if (opacity > 0.0f && cone_traced && frame.batch == 0u) radiance += indirect_reflected(point, frame.cone_shift, frame.cone_share, solid_diagonal(fragment.instance));
         // The picture has all lights that stand before opaque surfaces: those before this one it does not dim.
         vec3 before = vec3(0.0f);
         if (frame.batch == 0u) before = lights_seen(frame.position, -point.wo, distance(frame.position, point.position));

@@ -3,8 +3,8 @@
 #define HELIODON_BLENDED_LIGHT_GLSL
 #include "passes/cone_trace/refracted.glsl"
 
-/// cd/m². `diagonal_m`: solid_diagonal().
-vec3 indirect_reflected(SurfacePoint point, vec2 shift, float diagonal_m) {
+/// cd/m². `shift` and `cone_share` of diffuse_cone(); `diagonal_m`: solid_diagonal().
+vec3 indirect_reflected(SurfacePoint point, vec2 shift, float cone_share, float diagonal_m) {
     const vec3 wo = to_local(point.frame, point.wo);
     if (point.dark || wo.z <= 0.0f) return vec3(0.0f);
     const BsdfLobes lobes = bsdf_prepare(point.material.surface, wo);
@@ -23,7 +23,7 @@ vec3 indirect_reflected(SurfacePoint point, vec2 shift, float diagonal_m) {
         vec3 share;
         if (i < diffuse_cones) {
             share = albedo.diffuse;
-            cone = diffuse_cone(i % cones_per_set, i / cones_per_set, volume.cone_sets, shift);
+            cone = diffuse_cone(i % cones_per_set, i / cones_per_set, volume.cone_sets, shift, cone_share);
         } else if (i < reflections) {
             const bool coat = i != diffuse_cones;
             share = coat ? albedo.coat : albedo.specular;

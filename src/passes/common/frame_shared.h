@@ -60,6 +60,7 @@ struct FrameData {
     uint cone_traced;  // 1: indirect light and the sky come from cones through the voxel volume
     uint volume_light;  // of the batch: what it reaches is known by pixel (passes/shadow_volumes); or no_light
     vec2 cone_shift;   // of diffuse_cone()
+    float cone_share;
 };
 
 SHADING_CONST uint no_light = 0xffffffffu;

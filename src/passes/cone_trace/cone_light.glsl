@@ -38,7 +38,7 @@ ConeLight diffuse_light(vec3 origin, vec3 normal, uint sets, vec2 shift) {
     const Frame frame = frame_from_normal(normal);
     ConeLight sum = ConeLight(vec3(0.0f), 0.0f);
     for (uint i = 0u; i < sets * cones_per_set; ++i) {
-        Cone cone = diffuse_cone(i % cones_per_set, i / cones_per_set, sets, shift);
+        Cone cone = diffuse_cone(i % cones_per_set, i / cones_per_set, sets, shift, 1.0f);
         cone.direction = to_world(frame, cone.direction);
         const ConeLight light = cone_light(origin, cone);
         sum.radiance += cone.weight * light.radiance;

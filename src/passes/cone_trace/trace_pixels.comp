@@ -35,7 +35,7 @@ void main() {
         if (!within || (lobe ? !surface.glossy || i >= in_turn : !surface.rough || index > cones_per_set)) continue;
         Cone cone;
         if (lobe) cone = specular_cone(viewer(pixel, surface.normal), surface.alpha);
-        else cone = diffuse_cone(index, i / in_turn, volume.cone_sets, frame.cone_shift);
+        else cone = diffuse_cone(index, i / in_turn, volume.cone_sets, frame.cone_shift, frame.cone_share);
         cone.direction = to_world(about, cone.direction);
         const ConeLight light = cone_light(origin, cone);
         if (lobe) reflected = light.radiance;

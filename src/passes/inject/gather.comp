@@ -17,7 +17,7 @@ vec3 light_of_cone(vec3 origin, vec3 normal, uint index) {
     const Frame frame = frame_from_normal(normal);
     vec3 sum = vec3(0.0f);
     for (uint set = 0u; set < volume.gather_sets; ++set) {
-        Cone cone = diffuse_cone(index, set, volume.gather_sets, push.gather_shift);
+        Cone cone = diffuse_cone(index, set, volume.gather_sets, push.gather_shift, push.gather_share);
         cone.direction = to_world(frame, cone.direction);
         sum += cone.weight * cone_light(origin, cone).radiance;
     }

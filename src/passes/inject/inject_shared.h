@@ -15,6 +15,7 @@ struct InjectConstants {
     uint face;           // which of the six faces of the listed records, where a pass takes one of them
     ivec3 shift;         // voxel v of this grid was voxel v + shift of the one whose gathered light is kept
     uint unlit_only;     // gather: for faces alone that have not gathered yet
+    float gather_share;  // of diffuse_cone()
 };
 
 /// First words of the lists of faces that light can leave: of each of the six faces, VkDispatchIndirectCommand, and
