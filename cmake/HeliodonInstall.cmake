@@ -16,7 +16,7 @@ foreach(ROOM core scene gpu graph shading)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${ROOM} DESTINATION include/heliodon COMPONENT development
     FILES_MATCHING PATTERN "*.h")
 endforeach()
-foreach(HEADER import/import.h trace/path_tracer.h realtime/renderer.h)
+foreach(HEADER import/import.h trace/path_tracer.h realtime/renderer.h realtime/shadow_volume_statistics.h)
   get_filename_component(ROOM ${HEADER} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${HEADER} DESTINATION include/heliodon/${ROOM} COMPONENT development)
 endforeach()

@@ -145,9 +145,9 @@ TEST_F(Commands, StatisticsOfTheRealtimeEngineHaveTheDesignsKeys) {
     const Ended ended = render({"--frames-timed", "3", "--stats", "n.json", "-o", "a.exr"});
     ASSERT_EQ(ended.code, 0) << ended.error;
     const json stats = json::parse(read_text(folder() / "n.json"));
-    // Beside the design's: vertex_bytes, which shows what convert.vertex_precision saves.
+    // Beside the design's: vertex_bytes, which shows what convert.vertex_precision saves, and what filtering the sky took.
     EXPECT_EQ(keys(stats), (std::vector<std::string>{"cpu_ms", "device", "gpu_memory_bytes", "gpu_ms_total", "passes",
-                                                     "peak_rss_bytes", "vertex_bytes"}));
+                                                     "peak_rss_bytes", "sky_gpu_ms", "sky_passes", "vertex_bytes"}));
     EXPECT_GT(stats["vertex_bytes"], 0);
     EXPECT_FALSE(stats["passes"].empty());
     for (const json& pass : stats["passes"]) EXPECT_EQ(keys(pass), (std::vector<std::string>{"gpu_ms", "name"}));
