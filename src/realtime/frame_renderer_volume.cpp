@@ -146,7 +146,8 @@ Result<void> FrameRenderer::record_volume_bounces(gpu::Commands& commands, const
 Result<void> FrameRenderer::record_volume(gpu::Commands& commands, const FrameSample& sample, std::size_t batch) {
     if (sample.count > 0) return {};  // converged before
     if (voxelize_) {
-        if (auto done = voxels_.record_surfaces(commands, &timestamps_, settings_.bounces == 0, key_.surfaces_ahead ? surface_executor_.get() : nullptr); !done) return done;
+        graph::Executor* const beside = key_.surfaces_ahead ? surface_executor_.get() : nullptr;
+        if (auto done = voxels_.record_surfaces(commands, &timestamps_, settings_.bounces == 0, beside); !done) return done;
         surfaces_voxelized();
     }
     if (relight_) {
