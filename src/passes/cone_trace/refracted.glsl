@@ -7,7 +7,7 @@
 #include "passes/cone_trace/cone_lobes.glsl"
 
 /// Area × normal of what lies about a place (finest voxels), in faces of a voxel: its six sides on the whole. Surfaces that
-/// show both sides alike, as those of open meshes do, cancel out.
+/// show both sides alike cancel out, and what one side sees from the front with what the other sees from behind.
 vec3 outward_area(vec3 at) {
     const float level = level_holding(at);
     const vec3 first = face_coordinates(at, exp2(level), level);
@@ -15,8 +15,7 @@ vec3 outward_area(vec3 at) {
     for (int axis = 0; axis < 3; ++axis) {
         const vec3 positive = first + vec3(0.0f, 0.0f, float(axis) / 3.0f);
         const vec3 negative = positive + vec3(0.5f, 0.0f, 0.0f);
-        area[axis] = textureLod(voxel_faces_texture, positive, 0.0f).a;
-        area[axis] -= textureLod(voxel_faces_texture, negative, 0.0f).a;
+        area[axis] = abs(textureLod(voxel_faces_texture, positive, 0.0f).a) - abs(textureLod(voxel_faces_texture, negative, 0.0f).a);
     }
     return area;
 }

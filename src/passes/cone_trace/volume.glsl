@@ -100,6 +100,7 @@ struct ConeWalk {
     vec3 look;         // of a layer, from look to look
     vec3 edge;         // of each axis' layers
     vec3 next;         // way to its next look
+    float least_edge;  // where it begins
 };
 
 ConeWalk begin_walk(vec3 origin, vec3 direction, float tan_half_angle, float reach) {
@@ -119,7 +120,8 @@ ConeWalk begin_walk(vec3 origin, vec3 direction, float tan_half_angle, float rea
     // A cone that grazes a layer goes far along it, and looks at it once a voxel, so that what stands at the layer's near
     // side is seen before the cone has passed it by.
     walk.look = 1.0f / clamp(ceil(max(walk.slope.yzx, walk.slope.zxy) * walk.inverse), vec3(1.0f), vec3(most_looks));
-    walk.edge = vec3(nested ? exp2(level_holding(origin + direction * walk.begin)) : 1.0f);
+    walk.least_edge = nested ? exp2(level_holding(origin + direction * walk.begin)) : 1.0f;
+    walk.edge = vec3(walk.least_edge);
     const vec3 layer = floor((walk.start + walk.slope * walk.begin) / walk.edge);
     walk.next = max(((layer + 0.5f * walk.look) * walk.edge - walk.start) * walk.inverse, vec3(walk.begin));
     return walk;
@@ -231,7 +233,26 @@ void leave_look(inout ConeWalk walk, Layer layer, uint found) {
 struct ConeResult {
     vec3 radiance;  // cd/m² × cover
     float cover;
+    float entered;  // cover of what was met from its front
 };
+
+/// What the cone meets from behind `at` a place on its way: the black rear of a sheet. Where it has gone into something before,
+/// this is how it leaves that again, and what interpolation kept from the front's cover shows as it did. `looked_up`: where in the
+/// lattice. The surface that the cone comes from, whose texels reach 3/2 edges, is not behind its origin.
+uint meet_rear(ConeWalk walk, Layer layer, vec3 at, vec3 looked_up, float behind, float level, float mip, inout ConeResult result) {
+    const vec3 first = face_coordinates(looked_up, layer.edge, level);
+    vec3 normal;  // along the cone's way: what is seen from behind, less what is from the front
+    for (int axis = 0; axis < 3; ++axis) {
+        const vec3 corner = vec3(walk.backward[axis] ? 0.0f : 0.5f, 0.0f, float(axis) / 3.0f);
+        normal[axis] = -textureLod(voxel_faces_texture, first + corner, mip).a;
+    }
+    if (!(dot(normal, walk.slope) > 0.0f && dot(normal, at - walk.start) > 1.5f * walk.least_edge * length(normal))) return missed;
+    const float left = min(behind, result.entered);
+    const float gained = min(behind - left, 1.0f - result.cover);
+    if (result.cover > 0.0f) result.radiance *= 1.0f + gained * left / (behind * result.cover);
+    result.cover += gained;
+    return met;
+}
 
 /// What the cone meets of the layer it looks at, if it does ahead of its origin and within its reach. A face deeper than
 /// the cone goes in this texel is left to a look there: here interpolation shows the ends of what stands elsewhere.
@@ -245,13 +266,19 @@ uint meet_layer(ConeWalk walk, Layer layer, inout ConeResult result) {
     const float number = floor((layer.start + layer.slope * layer.t) * inverse_power(layer.edge));
     const float forward_middle = (number + 0.5f) * layer.edge;
     const vec3 middle = vec3(turned ? walk.wide - forward_middle : forward_middle);
-    const vec3 at = corner + face_coordinates(mix(place(walk, walked(walk, layer.t)), middle, layer.axis), layer.edge, float(level));
+    const vec3 looked_at = mix(place(walk, walked(walk, layer.t)), middle, layer.axis);
+    const vec3 at = corner + face_coordinates(looked_at, layer.edge, float(level));
     const vec4 seen = textureLod(voxel_faces_texture, at, mip);
     const float deep = textureLod(voxel_depths_texture, at, mip).r;  // both at once: what is empty is seldom looked at
-    if (seen.a <= 0.0f) return missed;
+    if (seen.a == 0.0f) return missed;
     const float depth = clamp(deep / seen.a, 0.0f, 1.0f);
-    const float meets = ((number + (turned ? 1.0f - depth : depth)) * layer.edge - layer.start) * layer.inverse;
+    const float stands = (number + (turned ? 1.0f - depth : depth)) * layer.edge;
+    const float meets = (stands - layer.start) * layer.inverse;
     if (!(meets >= walk.begin && meets <= walk.end)) return missed;
+    if (seen.a < 0.0f) {
+        const vec3 at_rear = mix(walked(walk, layer.t), vec3(stands), layer.axis);
+        return meet_rear(walk, layer, at_rear, looked_at, -seen.a, float(level), mip, result);
+    }
     if (meets > leaves_texel(walk, layer.edge, layer.t)) return met_later;
     const vec3 within = corner + face_coordinates(mix(place(walk, walked(walk, meets)), middle, layer.axis), layer.edge, float(level));
     const vec4 face = textureLod(voxel_faces_texture, within, mip);
@@ -259,13 +286,14 @@ uint meet_layer(ConeWalk walk, Layer layer, inout ConeResult result) {
     const float gained = min(face.a, 1.0f - result.cover);
     result.radiance += face.rgb * (gained / face.a);
     result.cover += gained;
+    result.entered += gained;
     return met;
 }
 
 /// `origin` and `reach` in finest voxels; `direction` unit. Ways past what is empty and looks take turns in one loop, so that
 /// cones that are traced together need not wait for each other's way through empty space.
 ConeResult trace_cone(vec3 origin, vec3 direction, float tan_half_angle, float reach) {
-    ConeResult result = ConeResult(vec3(0.0f), 0.0f);
+    ConeResult result = ConeResult(vec3(0.0f), 0.0f, 0.0f);
     ConeWalk walk = begin_walk(origin, direction, tan_half_angle, reach);
     while (result.cover < 0.999f) {
         const Layer layer = next_layer(walk);

@@ -8,7 +8,11 @@
 const int enclosed_reach = 4;      // voxels to each side
 const float most_of_a_face = 0.5f;  // of a voxel: less may be the voxel's share of a surface that passes by
 
-float shown_area(uint number, uint face) { return float(records[((number - 1u) * voxel_faces + face) * voxel_field_count]) / voxel_fixed_one; }
+/// From behind too: a sheet shows both sides alike and leads nowhere.
+float shown_area(uint number, uint face) {
+    const uint first = ((number - 1u) * voxel_faces + face) * voxel_field_count;
+    return float(records[first + voxel_field_area] + records[first + voxel_field_behind]) / voxel_fixed_one;
+}
 
 /// Whether who goes from a voxel along an axis meets the outer side of a solid from behind, before it could have entered it.
 bool leaves_solid(ivec3 voxel, int axis, uint side, int size) {

@@ -17,9 +17,9 @@ layout(push_constant) uniform Push { InjectConstants push; };
 
 const float largest_half = 65504.0f;
 
-/// Radiance × cover in units of the grid's, and cover.
+/// Radiance × cover in units of the grid's, and cover: negative where it sees surfaces from behind alone.
 vec4 face_value(VoxelFace face, uint index) {
-    if (face.area <= 0.0f) return vec4(0.0f);
+    if (face.area <= 0.0f) return vec4(vec3(0.0f), -min(face.behind, 1.0f));
     const float cover = min(face.area, 1.0f);
     vec3 radiance = face.emission * push.grid.emission_unit;
     if (!emission_only) radiance += cover * face.albedo * inverse_pi * (illuminance[index].rgb + gathered[index].rgb);
@@ -31,17 +31,18 @@ void write_face(ivec3 texel, vec4 value, float within) {
     imageStore(depths, texel, vec4(value.a * clamp(within, 0.0f, 1.0f)));
 }
 
-/// One value and one place for all sides. Black rears have no part in the radiance.
+/// One value and one place for all sides. What stands in a voxel shows some side its front, so that rears have no part.
 void write_isotropic(uint record, uvec3 voxel) {
     float cover = 0.0f;
     vec4 shining = vec4(0.0f);
     vec4 place = vec4(0.0f);
     for (uint i = 0u; i < voxel_faces; ++i) {
         const VoxelFace face = voxel_face(push.grid, record, i);
+        if (face.area <= 0.0f) continue;
         const vec4 value = face_value(face, record * voxel_faces + i);
         cover = max(cover, value.a);
         place += value.a * vec4(face.within, 1.0f);
-        if (any(greaterThan(face.albedo + face.emission, vec3(0.0f)))) shining += value;
+        shining += value;
     }
     const vec4 value = isotropic_value(shining, cover);
     const vec3 within = place.a > 0.0f ? place.xyz / place.a : vec3(0.0f);

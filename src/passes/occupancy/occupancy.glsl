@@ -10,7 +10,7 @@ layout(set = 0, binding = 23, std430) buffer Occupancy { uint occupancy[]; };
 uint occupied_faces(ivec3 voxel, uint size, uint cascade) {
     uint bits = 0u;
     for (int face = 0; face < 6; ++face)
-        if (imageLoad(faces, voxel + int(size) * ivec3(face & 1, int(cascade), face >> 1)).a > 0.0f) bits |= 1u << face;
+        if (imageLoad(faces, voxel + int(size) * ivec3(face & 1, int(cascade), face >> 1)).a != 0.0f) bits |= 1u << face;
     return bits;
 }
 

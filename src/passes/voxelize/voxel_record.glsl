@@ -6,14 +6,15 @@
 layout(set = 0, binding = 17, std430) readonly buffer Cells { uint record_cell[]; };
 layout(set = 0, binding = 18, std430) readonly buffer Records { uint records[]; };
 
-/// What one face of a voxel shows; nothing but zeros where the area is 0.
+/// What one face of a voxel shows; nothing but zeros where the area is 0, but for what it sees from behind.
 struct VoxelFace {
     float area;      // shown, in faces of a voxel
+    float behind;    // of what it sees from behind, likewise
     vec3 albedo;     // mean over the area
     vec3 emission;   // radiance × cover in units of the grid's emission: 1 face of emitters at most
     vec3 normal;     // unit
     vec3 position;   // world, on the surface's outer side
-    vec3 within;     // the centroid in the voxel, 0 … 1
+    vec3 within;     // the centroid in the voxel, 0 … 1; its middle for what is seen from behind
 };
 
 uvec3 record_voxel(uint record, uint size) {
@@ -27,7 +28,9 @@ vec3 record_vector(uint first) {
 
 VoxelFace voxel_face(VoxelGrid grid, uint record, uint face) {
     const uint first = (record * voxel_faces + face) * voxel_field_count;
-    VoxelFace result = VoxelFace(0.0f, vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f));
+    VoxelFace result = VoxelFace(0.0f, 0.0f, vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f));
+    result.behind = float(records[first + voxel_field_behind]) * (1.0f / voxel_fixed_one);
+    result.within = vec3(0.5f);
     if (records[first] == 0u) return result;
     result.area = float(records[first]) * (1.0f / voxel_fixed_one);
     const float inverse = 1.0f / result.area;

@@ -106,7 +106,7 @@ struct VoxelizeConstants {
 };
 
 // A record has six faces (+x −x +y −y +z −z). A surface counts for the faces that it is seen from, with the area
-// that it shows them. One-sided surfaces of meshes that do not close show a black rear: it blocks light.
+// that it shows them. What one-sided surfaces of meshes that do not close show their rear is summed apart: it blocks light.
 // Sums are fixed point, so that their order does not matter.
 SHADING_CONST uint voxel_faces = 6u;
 SHADING_CONST uint voxel_field_area = 0u;  // projected, in faces of a voxel
@@ -115,7 +115,8 @@ SHADING_CONST uint voxel_field_normal = 4u;    // signed
 SHADING_CONST uint voxel_field_position = 7u;  // in the voxel, 0 … 1
 SHADING_CONST uint voxel_field_emission = 10u;  // from here on nothing but zeros for what does not emit
 SHADING_CONST uint voxel_field_emissive_area = 13u;
-SHADING_CONST uint voxel_field_count = 14u;
+SHADING_CONST uint voxel_field_behind = 14u;  // area of what it sees from behind
+SHADING_CONST uint voxel_field_count = 15u;
 SHADING_CONST float voxel_fixed_one = 1048576.0f;  // 2²⁰: 4095 voxel faces of area before a sum is full
 
 SHADING_END

@@ -61,15 +61,18 @@ void sum(VoxelTriangle triangle, ivec3 voxel, uint record) {
         faces &= faces - 1u;
         const float along = triangle.normal[face >> 1u];
         const bool rear = (along > 0.0f) == ((face & 1u) != 0u);
-        const bool black = rear && !two_sided;  // and then without a colour
         const float area = part.w * abs(along);
         const float shown = area * surface.cover;
+        if (rear && !two_sided) {
+            add_to_record((record * voxel_faces + face) * voxel_field_count + voxel_field_behind, fixed_point(shown, rounding));
+            continue;
+        }
         const uint place = sums.first + face * sums.stride;
         add(place + voxel_field_area, shown, rounding);
-        if (!black) add(place + voxel_field_albedo, area * surface.albedo, rounding);
+        add(place + voxel_field_albedo, area * surface.albedo, rounding);
         add(place + voxel_field_normal, (rear ? -shown : shown) * triangle.normal, rounding);
         add(place + voxel_field_position, shown * position, rounding);
-        if (!black && any(greaterThan(surface.emission, vec3(0.0f))))
+        if (any(greaterThan(surface.emission, vec3(0.0f))))
             add_emission(record * voxel_faces + face, area * surface.emission, area * surface.opacity, rounding);
     }
 }
