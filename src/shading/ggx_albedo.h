@@ -32,6 +32,8 @@ SHADING_CONST uint glass_average_start = 2u * 128u * 64u + 2u * 128u + 2u * 12u 
 SHADING_CONST uint glass_fresnel_start = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u;
 SHADING_CONST uint specular_lobe_columns = 48u;
 SHADING_CONST uint specular_lobe_rows = 48u;
+SHADING_CONST uint specular_lobe_layers = 2u;  // at Fresnel 1, and for an F0 of lobe_dielectric_f0
+SHADING_CONST float lobe_dielectric_f0 = 0.04f;  // of index 1.5
 SHADING_CONST uint specular_lobe_start = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u + 12u;
 // Of what SHADING_EXTENDED models look up (ggx_anisotropic.h, sheen.h), after all of the others.
 SHADING_CONST uint stretched_rows = 20u;      // of √α along the direction
@@ -39,7 +41,7 @@ SHADING_CONST uint stretched_breadths = 20u;  // of √α across it
 SHADING_CONST uint stretched_shears = 5u;     // of (αx αy / both of these)²
 SHADING_CONST uint stretched_columns = 18u;   // of √μ
 SHADING_CONST uint stretched_averages = 32u;  // of √αx and of √αy
-SHADING_CONST uint stretched_albedo_start = specular_lobe_start + 2u * 48u * 48u;
+SHADING_CONST uint stretched_albedo_start = specular_lobe_start + 2u * 2u * 48u * 48u;
 SHADING_CONST uint stretched_average_start = stretched_albedo_start + 2u * 20u * 20u * 5u * 18u;
 SHADING_CONST uint sheen_rows = 16u;     // of roughness
 SHADING_CONST uint sheen_columns = 24u;  // of √μ

@@ -7,6 +7,7 @@
 #ifndef HELIODON_SHADING_LOBE_CONE_H
 #define HELIODON_SHADING_LOBE_CONE_H
 #include "shading/cone.h"
+#include "shading/fresnel.h"
 #include "shading/ggx_albedo.h"
 SHADING_BEGIN
 
@@ -28,25 +29,78 @@ SHADING_FN vec2 specular_lobe_row(uint first, float x) {
     return mix(vec2(shading_table(first), shading_table(first + 1u)),
                vec2(shading_table(first + 2u), shading_table(first + 3u)), x);
 }
-/// What stands in specular_lobe_start's table: the mean direction's angle from the normal as a share of the mirror's, and
+/// What stands in a layer of specular_lobe_start's table: the mean direction's angle from the normal as a share of the mirror's, and
 /// √(1 − cos γ)/α; bilinear in √μ (to which the second of a narrow lobe is in proportion) and √α. Between the entries it
 /// is within 0.1° and 1 % of solid angle for μ ≥ 0.1, 10 % below (tests/shading/cone_test.cpp).
-SHADING_FN vec2 specular_lobe(float mu, float alpha) {
+SHADING_FN vec2 specular_lobe(float mu, float alpha, uint layer) {
     float row = alpha_coordinate(alpha) * float(specular_lobe_rows - 1u);
     float column = sqrt(clamp(mu, 0.0f, 1.0f)) * float(specular_lobe_columns - 1u);
     uint j = min(uint(row), specular_lobe_rows - 2u);
     uint i = min(uint(column), specular_lobe_columns - 2u);
-    uint first = specular_lobe_start + 2u * (j * specular_lobe_columns + i);
+    uint first = specular_lobe_start + 2u * ((layer * specular_lobe_rows + j) * specular_lobe_columns + i);
     float x = column - float(i);
     return mix(specular_lobe_row(first, x), specular_lobe_row(first + 2u * specular_lobe_columns, x), row - float(j));
 }
 
-/// The GGX reflection lobe D G2/(4 μo) (ggx_reflection), Fresnel's factor left out, as one cone; weight 1.
-SHADING_FN Cone specular_cone(vec3 wo, float alpha) {
-    vec2 lobe = specular_lobe(wo.z, alpha);
+/// The cone of a lobe in the plane of incidence by specular_lobe()'s pair; weight 1.
+SHADING_FN Cone specular_cone_of(vec3 wo, float alpha, vec2 lobe) {
     float angle = lobe.x * atan(sqrt(wo.x * wo.x + wo.y * wo.y), wo.z);
     float width = lobe.y * alpha;
     return lobe_cone(wo, -sin(angle), cos(angle), width * width);
+}
+/// The GGX reflection lobe D G2/(4 μo) (ggx_reflection), Fresnel's factor left out, as one cone.
+SHADING_FN Cone specular_cone(vec3 wo, float alpha) {
+    return specular_cone_of(wo, alpha, specular_lobe(wo.z, alpha, 0u));
+}
+/// With Schlick's factor for `f0`; `split`: ggx_albedo_split(). What reflects little from the front reflects most where facets are
+/// grazed: seen from low, a rough dielectric's cone looks ahead where a metal's looks up. The factor is linear in F0, so that
+/// every lobe is a mixture of those at F0 = lobe_dielectric_f0 and 1, by their energies; of cones the middle one is taken.
+SHADING_FN Cone specular_cone(vec3 wo, float alpha, float f0, vec2 split) {
+    float dielectric = min(1.0f - f0, 0.98f) / (1.0f - lobe_dielectric_f0);  // water has less F0 than most
+    float energy = dielectric * (lobe_dielectric_f0 * split.x + split.y);
+    float rest = (1.0f - dielectric) * (split.x + split.y);
+    vec2 lobe = specular_lobe(wo.z, alpha, 1u);
+    if (rest != 0.0f) {
+        lobe = mix(lobe, specular_lobe(wo.z, alpha, 0u), rest / (energy + rest));
+    }
+    return specular_cone_of(wo, alpha, lobe);
+}
+
+/// F0 of a lobe whose directional albedo is `albedo`, as far as that is F0 A + B (ggx_albedo_split).
+SHADING_FN vec3 f0_of_albedo(vec3 albedo, vec2 split) {
+    return clamp((albedo - vec3(split.y)) * (1.0f / max(split.x, 1.0e-6f)), vec3(0.0f), vec3(1.0f));
+}
+
+/// One of 1/`share` cones that share the lobe: about a direction drawn by `u` in [0, 1)² from the visible normals (Heitz
+/// 2018), of `share` of the solid angle that its density asks for. `weight`: what it counts, 1 on average over u; 0 where it leads below.
+SHADING_FN Cone specular_cone_part(vec3 wo, float alpha, vec3 f0, vec2 split, vec2 u, float share, SHADING_OUT(vec3) weight) {
+    vec3 h = ggx_sample_visible_normal(wo, alpha, u);
+    float facing = dot(wo, h);
+    Cone cone;
+    cone.direction = h * (2.0f * facing) - wo;
+    cone.one_minus_cos = 0.0f;
+    cone.weight = 1.0f;
+    weight = vec3(0.0f);
+    if (cone.direction.z > 0.0f) {
+        float unmasked = ggx_g2(wo.z, cone.direction.z, alpha) / ggx_g1(wo.z, alpha);
+        weight = fresnel_schlick(f0, 1.0f, facing) * unmasked / max(f0 * split.x + vec3(split.y), vec3(1.0e-6f));
+        float sine = sqrt(max(0.0f, 1.0f - cone.direction.z * cone.direction.z));
+        float widest = sine > 0.0f ? one_minus_cos_from_tan(cone.direction.z / sine) : 1.0f;
+        cone.one_minus_cos = min(share * 0.5f * inverse_pi / ggx_reflection_pdf(wo, h, alpha), widest);
+    }
+    cone.tan_half_angle = tan_from_one_minus_cos(cone.one_minus_cos);
+    return cone;
+}
+
+/// The lobe of a surface of that specular albedo: all of it as one cone, or a sample's `share` of it.
+SHADING_FN Cone reflection_cone(vec3 wo, float alpha, vec3 albedo, vec2 u, float share, SHADING_OUT(vec3) weight) {
+    vec2 split = ggx_albedo_split(wo.z, alpha);
+    vec3 f0 = f0_of_albedo(albedo, split);
+    weight = vec3(1.0f);
+    if (share < 1.0f) {
+        return specular_cone_part(wo, alpha, f0, split, u, share, weight);
+    }
+    return specular_cone(wo, alpha, (f0.x + f0.y + f0.z) * (1.0f / 3.0f), split);
 }
 
 /// Sums over a lobe; directions in its plane of incidence, x along the viewer's.

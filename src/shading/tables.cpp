@@ -95,16 +95,19 @@ glm::dvec2 reflection_albedo(float mu, float alpha, const Rules& rules) {
 }
 
 /// specular_lobe()'s entry. Both moments are means over the visible normals (Heitz 2018, "Sampling the GGX Distribution of
-/// Visible Normals"): with E = Σ share, the mean direction is that of Σ share · i, and Ω = E²/Σ share · density.
-glm::vec2 reflection_cone(float mu, float alpha, const Rules& rules) {
+/// Visible Normals") times Fresnel's factor: with E = Σ share, the mean direction is that of Σ share · i, and Ω = E²/Σ share · density.
+glm::vec2 mean_lobe(float mu, float alpha, float f0, const Rules& rules) {
     const VisibleNormals normals(mu, alpha);
     double energy = 0, mean_square = 0, x = 0, z = 0;
-    visit_reflections(normals, rules, [&](vec3 h, double share) {
-        const vec3 i = h * (2.0f * dot(normals.wo, h)) - normals.wo;
+    visit_reflections(normals, rules, [&](vec3 h, double unmasked) {
+        const float facing = dot(normals.wo, h);
+        const vec3 i = h * (2.0f * facing) - normals.wo;
+        const double fresnel = f0 + (1.0 - f0) * schlick_weight(facing);
+        const double share = unmasked * fresnel;
         energy += share;
         x += share * i.x;
         z += share * i.z;
-        mean_square += share * ggx_reflection(normals.wo, i, h, alpha);
+        mean_square += share * fresnel * ggx_reflection(normals.wo, i, h, alpha);
     });
     const double one_minus_cos = energy * energy / mean_square / (2 * std::numbers::pi);
     return {static_cast<float>(std::atan2(-x, z) / std::acos(double(mu))), static_cast<float>(std::sqrt(one_minus_cos) / alpha)};
@@ -198,12 +201,14 @@ void fill_reflection(std::span<float> table, const Rules& rules) {
 
 void fill_specular_lobes(std::span<float> table, const Rules& rules) {
     constexpr double largest_mu = 1 - 1e-5;  // stands for the limit from the normal, where the angles' ratio is 0/0
-    each_table_row(specular_lobe_rows, [&](std::size_t j) {
+    each_table_row(specular_lobe_layers * specular_lobe_rows, [&](std::size_t row) {
+        const float f0 = row < specular_lobe_rows ? 1.0f : lobe_dielectric_f0;
+        const float alpha = alpha_of_row(row % specular_lobe_rows, specular_lobe_rows);
         for (std::size_t i = 0; i < specular_lobe_columns; ++i) {
             const double x = static_cast<double>(i) / (specular_lobe_columns - 1);
             const auto mu = static_cast<float>(std::clamp(x * x, smallest_mu, largest_mu));
-            const glm::vec2 cone = reflection_cone(mu, alpha_of_row(j, specular_lobe_rows), rules);
-            const std::size_t entry = specular_lobe_start + 2 * (j * specular_lobe_columns + i);
+            const glm::vec2 cone = mean_lobe(mu, alpha, f0, rules);
+            const std::size_t entry = specular_lobe_start + 2 * (row * specular_lobe_columns + i);
             table[entry] = cone.x;
             table[entry + 1] = cone.y;
         }

@@ -121,6 +121,11 @@ TEST(DiffuseCones, FixedSetsComeNearerToASmoothIntegralTheMoreTheyAre) {
 struct SampledLobe {
     glm::dvec3 mean{0};  // of the directions; its length is their mean cosine to it
     double energy = 0, mean_square = 0;
+    void add(vec3 wi, double share, double density) {
+        energy += share;
+        mean += share * glm::dvec3(wi);
+        mean_square += share * density;
+    }
     [[nodiscard]] double one_minus_cos() const { return energy * energy / mean_square / turn; }
     [[nodiscard]] double mean_cosine() const { return length(mean) / energy; }
 };
@@ -143,10 +148,15 @@ void visit_lobe(vec3 wo, float alpha, float eta, const Visit& visit) {
 }
 SampledLobe sampled_lobe(vec3 wo, float alpha, float eta) {
     SampledLobe lobe;
-    visit_lobe(wo, alpha, eta, [&](vec3 wi, double share, double density) {
-        lobe.energy += share;
-        lobe.mean += share * glm::dvec3(wi);
-        lobe.mean_square += share * density;
+    visit_lobe(wo, alpha, eta, [&](vec3 wi, double share, double density) { lobe.add(wi, share, density); });
+    return lobe;
+}
+/// With Schlick's factor.
+SampledLobe sampled_lobe_of(vec3 wo, float alpha, float f0) {
+    SampledLobe lobe;
+    visit_lobe(wo, alpha, 0, [&](vec3 wi, double share, double density) {
+        const double fresnel = fresnel_schlick(vec3(f0), 1, dot(wo, normalize(wo + wi))).x;
+        lobe.add(wi, share * fresnel, density * fresnel);
     });
     return lobe;
 }
@@ -172,10 +182,57 @@ TEST(SpecularCone, PointsWhereTheReflectionsOfGgxDoOnAverage) {
         }
 }
 
+TEST(SpecularCone, LooksAheadWhereFresnelHasARoughDielectricReflect) {
+    for (float roughness : {0.2f, 0.4f, 0.6f, 0.8f, 1.0f})
+        for (float mu : {0.9f, 0.5f, 0.2f, 0.1f})
+            for (float f0 : {0.02f, 0.04f, 0.1f, 0.25f, 0.6f}) {
+                const vec3 wo = direction(mu, 0.7f);
+                const float alpha = ggx_alpha(roughness);
+                const Cone cone = specular_cone(wo, alpha, f0, ggx_albedo_split(mu, alpha));
+                const SampledLobe lobe = sampled_lobe_of(wo, alpha, f0);
+                SCOPED_TRACE(::testing::Message() << "roughness " << roughness << " mu " << mu << " F0 " << f0);
+                EXPECT_LE(degrees_between(cone.direction, lobe.mean), f0 == lobe_dielectric_f0 ? 0.15 : 3.1);
+                // The horizon cuts the widest ones, and mixtures leave out how far the two lie from each other.
+                EXPECT_NEAR(cone.one_minus_cos / lobe.one_minus_cos(), 1.0, roughness < 0.7f ? 0.25 : 0.43);
+            }
+    // From low a rough dielectric's mean reflection lies this far from a metal's.
+    const vec3 low = direction(0.1f);
+    EXPECT_GT(degrees_between(specular_cone(low, 0.64f, 0.04f, ggx_albedo_split(0.1f, 0.64f)).direction, specular_cone(low, 0.64f).direction), 15);
+}
+
+TEST(SpecularCone, InPartsIsTheLobe) {
+    const auto radiance = [](vec3 d) { return std::exp(-4.0 * (1 - dot(d, normalize(vec3(-0.7f, 0.3f, 0.3f))))); };
+    for (float f0 : {0.04f, 0.5f})
+        for (float mu : {0.8f, 0.2f})
+            for (float alpha : {0.1f, 0.5f, 1.0f}) {
+                const vec3 wo = direction(mu, 0.4f);
+                const vec2 split = ggx_albedo_split(mu, alpha);
+                const vec3 albedo = vec3(f0) * split.x + vec3(split.y);
+                double exact = 0, energy = 0, parts = 0, weights = 0;
+                visit_lobe(wo, alpha, 0, [&](vec3 wi, double share, double) {
+                    const double counted = share * fresnel_schlick(vec3(f0), 1, dot(wo, normalize(wo + wi))).x;
+                    energy += counted;
+                    exact += counted * radiance(wi);
+                });
+                constexpr std::uint32_t samples = 4096;
+                for (std::uint32_t i = 0; i < samples; ++i) {
+                    vec3 weight;
+                    const Cone cone = reflection_cone(wo, alpha, albedo, vec2(tests::cube_point(i)), 1.0f / samples, weight);
+                    EXPECT_GE(cone.one_minus_cos, 0.0f);
+                    EXPECT_LE(cone.one_minus_cos, 1.0f);
+                    parts += weight.x * radiance(cone.direction) / samples;
+                    weights += weight.x / samples;
+                }
+                SCOPED_TRACE(::testing::Message() << "F0 " << f0 << " mu " << mu << " alpha " << alpha);
+                EXPECT_NEAR(weights, 1, 0.01);
+                EXPECT_NEAR(parts / (exact / energy), 1, 0.01);
+            }
+}
+
 TEST(SpecularCone, StandsInATableThatIsWithinATenthOfSolidAngleAtGrazingIncidence) {
     for (float alpha : {0.0017f, 0.01f, 0.12f})
         for (float mu : {0.003f, 0.02f, 0.06f}) {
-            const vec2 entry = specular_lobe(mu, alpha);
+            const vec2 entry = specular_lobe(mu, alpha, 0);
             const SampledLobe lobe = sampled_lobe(direction(mu), alpha, 0);
             SCOPED_TRACE(::testing::Message() << "alpha " << alpha << " mu " << mu);
             EXPECT_NEAR(entry.y * entry.y * alpha * alpha / lobe.one_minus_cos(), 1.0, 0.1);

@@ -27,8 +27,10 @@ vec3 indirect_reflected(SurfacePoint point, vec2 shift, float cone_share, float 
         } else if (i < reflections) {
             const bool coat = i != diffuse_cones;
             share = coat ? albedo.coat : albedo.specular;
+            vec3 weight;
+            cone = reflection_cone(wo, coat ? lobes.coat_alpha : lobes.alpha, share, shift, cone_share, weight);
+            share *= weight;
             if (share == vec3(0.0f)) continue;
-            cone = specular_cone(wo, coat ? lobes.coat_alpha : lobes.alpha);
         } else {
             share = albedo.refraction * through.tint;
             cone = refracted_cone(through, i - reflections, origin);

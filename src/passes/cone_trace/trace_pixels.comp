@@ -34,11 +34,12 @@ void main() {
         const bool lobe = index == cones_per_set;
         if (!within || (lobe ? !surface.glossy || i >= in_turn : !surface.rough || index > cones_per_set)) continue;
         Cone cone;
-        if (lobe) cone = specular_cone(viewer(pixel, surface.normal), surface.alpha);
+        vec3 weight = vec3(1.0f);
+        if (lobe) cone = reflection_cone(viewer(pixel, surface.normal), surface.alpha, lobes_at(pixel).specular, frame.cone_shift, frame.cone_share, weight);
         else cone = diffuse_cone(index, i / in_turn, volume.cone_sets, frame.cone_shift, frame.cone_share);
         cone.direction = to_world(about, cone.direction);
         const ConeLight light = cone_light(origin, cone);
-        if (lobe) reflected = light.radiance;
+        if (lobe) reflected = weight * light.radiance;
         else sum += cone.weight * vec4(light.radiance, light.openness);
     }
     traced[row * 32u + lane] = sum;
