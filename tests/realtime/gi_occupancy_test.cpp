@@ -16,7 +16,7 @@ struct Covers {
         const int edge = size >> level;
         if (glm::any(glm::lessThan(texel, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(texel, glm::ivec3(edge)))) return false;
         const glm::ivec3 at = texel + edge * glm::ivec3(face & 1, cascade, face >> 1), wide = extent >> level;
-        return levels[level][4 * static_cast<std::size_t>(at.x + wide.x * (at.y + wide.y * at.z)) + 3] != 0;
+        return (levels[level][4 * static_cast<std::size_t>(at.x + wide.x * (at.y + wide.y * at.z)) + 3] & 0x7fff) != 0;  // −0 covers nothing
     }
     /// Whether a look in a texel can find the face: linear interpolation mixes in the texels beside it across the axis.
     [[nodiscard]] bool shows(int cascade, int level, glm::ivec3 texel, int face) const {
