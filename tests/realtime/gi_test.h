@@ -14,7 +14,7 @@ inline bool prints_accuracy_table() {
     return std::getenv("HELIODON_ACCURACY_TABLE") != nullptr;
 }
 
-/// A volume of `voxels` an edge and all bounces.
+/// A volume of `voxels` an edge and all bounces, by the wide cones of a single frame.
 inline void use_cone_tracing(Scene& scene, int voxels, int cones = 9) {
     RenderSettings settings = scene.render_settings();
     settings.gi = "vct";
@@ -23,6 +23,7 @@ inline void use_cone_tracing(Scene& scene, int voxels, int cones = 9) {
     settings.bounces = 0;
     settings.vct = {};
     settings.vct.cones = cones;
+    settings.vct.narrow = false;
     scene.set_render_settings(settings);
 }
 
