@@ -35,9 +35,9 @@ class Scene:
 
 
 REALTIME = ["--gi", "vct", "--voxels", "256", "--set", "render.cascades=3"]
-NARROW = ["--set", "render.vct.narrow=true"]
-MODES = {"one frame": ["--spp", "1"], "64 frames": ["--spp", "64"], "64 frames, narrow": ["--spp", "64", *NARROW],
-         "64 frames, narrow, 36 cones": ["--spp", "64", *NARROW, "--set", "render.vct.cones=36"]}
+WIDE = ["--set", "render.vct.narrow=false"]
+MODES = {"one frame": ["--spp", "1", *WIDE], "64 frames, wide": ["--spp", "64", *WIDE], "64 frames": ["--spp", "64"],
+         "64 frames, 36 cones": ["--spp", "64", "--set", "render.vct.cones=36"]}
 SHADOWS = {"cascades": [], "volumes": ["--set", "render.sun_shadows=volumes"]}
 
 
@@ -130,7 +130,7 @@ def main():
     arguments = parser.parse_args()
     known = {
         "car": Scene(arguments.scenes / "car-day.heliodon.json", "2026-06-21", 48.8, 9.2, 96),
-        "sponza": Scene(arguments.scenes / "sponza-day.heliodon.json", "2026-06-21", 42.64, 18.11, 160),
+        "sponza": Scene(arguments.scenes / "sponza-day.heliodon.json", "2026-06-21", 42.64, 18.11, 2048),
         "house": Scene(ROOT / "examples/house/house.heliodon.json", "2026-04-21", 47.4, 8.5, 128),
     }
     if unknown := set(arguments.names) - set(known):
