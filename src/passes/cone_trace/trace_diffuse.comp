@@ -17,7 +17,7 @@ vec4 trace_sets(ivec2 pixel, uint index) {
     const vec3 origin = cone_origin(position_at(pixel, surface.depth_m), surface.geometric);
     vec4 sum = vec4(0.0f);
     for (uint set = 0u; set < volume.cone_sets; ++set) {
-        Cone cone = diffuse_cone(index, set, volume.cone_sets, frame.cone_shift, frame.cone_share);
+        Cone cone = diffuse_cone(index, set, volume.cone_sets, cone_shift_at(pixel), frame.cone_share);
         cone.direction = to_world(about, cone.direction);
         const ConeLight light = cone_light(origin, cone);
         sum += cone.weight * vec4(light.radiance, light.openness);

@@ -25,6 +25,7 @@ void main() {
     const bool within = all(lessThan(cell, imageSize(diffuse)));
     const ivec2 pixel = traced_pixel(cell, frame.sample_index, ivec2(frame.width, frame.height));
     const ConePlace surface = place_at(pixel);
+    const vec2 shift = spacing == 1 ? cone_shift_at(pixel) : frame.cone_shift;  // neighbours take the mean of those
     const Frame about = frame_from_normal(surface.normal);
     const vec3 origin = cone_origin(position_at(pixel, surface.depth_m), surface.geometric);
     vec4 sum = vec4(0.0f);
@@ -35,8 +36,8 @@ void main() {
         if (!within || (lobe ? !surface.glossy || i >= in_turn : !surface.rough || index > cones_per_set)) continue;
         Cone cone;
         vec3 weight = vec3(1.0f);
-        if (lobe) cone = reflection_cone(viewer(pixel, surface.normal), surface.alpha, lobes_at(pixel).specular, frame.cone_shift, frame.cone_share, weight);
-        else cone = diffuse_cone(index, i / in_turn, volume.cone_sets, frame.cone_shift, frame.cone_share);
+        if (lobe) cone = reflection_cone(viewer(pixel, surface.normal), surface.alpha, lobes_at(pixel).specular, shift, frame.cone_share, weight);
+        else cone = diffuse_cone(index, i / in_turn, volume.cone_sets, shift, frame.cone_share);
         cone.direction = to_world(about, cone.direction);
         const ConeLight light = cone_light(origin, cone);
         if (lobe) reflected = weight * light.radiance;

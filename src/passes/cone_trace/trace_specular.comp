@@ -10,7 +10,7 @@ layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D specular;  // r
 
 vec3 reflected(ivec2 pixel, ConePlace surface, float alpha, vec3 albedo) {
     vec3 weight;
-    Cone cone = reflection_cone(viewer(pixel, surface.normal), alpha, albedo, frame.cone_shift, frame.cone_share, weight);
+    Cone cone = reflection_cone(viewer(pixel, surface.normal), alpha, albedo, cone_shift_at(pixel), frame.cone_share, weight);
     if (weight == vec3(0.0f)) return vec3(0.0f);
     cone.direction = to_world(frame_from_normal(surface.normal), cone.direction);
     return cone_light(cone_origin(position_at(pixel, surface.depth_m), surface.geometric), cone).radiance * weight * albedo;
