@@ -176,7 +176,7 @@ struct ConeTracingSettings {
     bool shadows = false;  ///< lights by a cone of their true size instead of shadow maps
     bool ao = true;        ///< off: the sky is not occluded
     int cones = 9;         ///< over the hemisphere; a multiple of 9
-    bool narrow = true;    ///< the samples of a still picture share the hemisphere: the more, the narrower their cones
+    bool narrow = true;    ///< a still picture's samples share the hemisphere and the lobe: the more, the narrower their cones
     ConeResolution resolution = ConeResolution::full;
     VoxelFiltering filtering = VoxelFiltering::anisotropic;
     bool operator==(const ConeTracingSettings&) const = default;
