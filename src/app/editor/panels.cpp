@@ -205,15 +205,15 @@ void global_illumination_panel(Scene& scene) {
     edited |= edit_cone_tracing(settings.vct);
     ImGui::EndDisabled();
     ImGui::BeginDisabled(traced);
-    edited |= named_choice("light of surroundings (approximation)", settings.ambient, "none\0constant\0directional\0");
+    edited |= named_choice("ambient, approximate", settings.ambient, "none\0constant\0directional\0");
     edited |= edit_ambient_occlusion(settings.ambient_occlusion);
     ImGui::EndDisabled();
     if (edited) scene.set_render_settings(std::move(settings));
 }
 
 bool edit_shadow_cascades(ShadowCascadeSettings& cascades) {
-    bool edited = ImGui::SliderInt("cascades of its shadow", &cascades.count, 1, most_shadow_cascades, "%d", ImGuiSliderFlags_AlwaysClamp);
-    edited |= ImGui::SliderFloat("split (even, by ratio)", &cascades.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    bool edited = ImGui::SliderInt("shadow cascades", &cascades.count, 1, most_shadow_cascades, "%d", ImGuiSliderFlags_AlwaysClamp);
+    edited |= ImGui::SliderFloat("split, even to ratio", &cascades.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     edited |= ImGui::SliderFloat("blend", &cascades.blend, 0, 0.5f, "%.3f", ImGuiSliderFlags_AlwaysClamp);
     edited |= length_slider("as far as", cascades.distance_m, "the scene");
     return edited;
