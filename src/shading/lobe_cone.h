@@ -72,7 +72,8 @@ SHADING_FN vec3 f0_of_albedo(vec3 albedo, vec2 split) {
 }
 
 /// One of 1/`share` cones that share the lobe: about a direction drawn by `u` in [0, 1)² from the visible normals (Heitz
-/// 2018), of `share` of the solid angle that its density asks for. `weight`: what it counts, 1 on average over u; 0 where it leads below.
+/// 2018), of `share` of the solid angle that its density asks for. `weight`: what it counts, 1 on average over u; 0 where
+/// it leads below.
 SHADING_FN Cone specular_cone_part(vec3 wo, float alpha, vec3 f0, vec2 split, vec2 u, float share, SHADING_OUT(vec3) weight) {
     vec3 h = ggx_sample_visible_normal(wo, alpha, u);
     float facing = dot(wo, h);

@@ -6,15 +6,6 @@ namespace {
 
 class GiRooms : public GlobalIllumination {};
 
-Camera inside(glm::vec3 eye, glm::vec3 target) {
-    Camera camera;
-    camera.position = eye;
-    camera.target = target;
-    camera.vertical_fov_rad = 1.9f;
-    camera.ev100_override = 3.0f;
-    return camera;
-}
-
 TEST_F(GiRooms, ARoomThatGlowsEvenlyIsAsBrightAsItsGeometricSeries) {
     // Each bounce adds ρ times the one before: L/(1 − ρ).
     Scene scene;

@@ -4,19 +4,10 @@
 namespace heliodon::tests {
 namespace {
 
-class GiSheets : public GlobalIllumination {
-protected:
-    static Camera inside(glm::vec3 eye, glm::vec3 target) {
-        Camera camera;
-        camera.position = eye;
-        camera.target = target;
-        camera.vertical_fov_rad = 1.6f;
-        camera.ev100_override = 3.0f;
-        return camera;
-    }
-};
+class GiSheets : public GlobalIllumination {};
 
-/// The sides and the top of a block that stands on `base`, turned about the vertical by `turn_rad`, each a sheet of its own that faces out.
+/// The sides and the top of a block that stands on `base`, turned about the vertical by `turn_rad`, each a sheet of its
+/// own that faces out.
 void add_open_block(Scene& scene, glm::vec3 base, glm::vec3 size, float turn_rad, MaterialId material) {
     const glm::vec3 x = size.x * glm::vec3(std::cos(turn_rad), 0, std::sin(turn_rad));
     const glm::vec3 y(0, size.y, 0), z = size.z * glm::vec3(-std::sin(turn_rad), 0, std::cos(turn_rad));
@@ -38,7 +29,7 @@ TEST_F(GiSheets, WhatIsBuiltOfThemTakesNoLightAwayByTheirRears) {
     for (const float x : {-0.7f, -0.25f, 0.2f, 0.65f}) add_open_block(scene, {x, 0, -0.4f}, {0.15f, 1.2f, 0.15f}, 0.6f + x, material);
     add_open_block(scene, {0, 0, -0.8f}, {1.2f, 0.7f, 0.03f}, 0.1f, material);  // half a voxel thick
     use_cone_tracing(scene, 32);
-    const Picture picture = cone_traced(scene, inside({0, 0.9f, 0.9f}, {-0.1f, 0.3f, -0.6f}), 48, 8);
+    const Picture picture = cone_traced(scene, inside({0, 0.9f, 0.9f}, {-0.1f, 0.3f, -0.6f}, 1.6f), 48, 8);
     const double mean = mean_luminance(picture.image) / 20;
     EXPECT_NEAR(mean, 1.0, 0.05);
     EXPECT_NEAR(mean, 1.0, 1.1 * 0.0229);  // measured: may only fall
@@ -53,7 +44,7 @@ TEST_F(GiSheets, SeenFromBehindTheyKeepTheSkyOut) {
     add_shape_node(scene, Box{{-0.2f, 0, -0.2f}, {0.2f, 0.3f, 0.2f}}, white);
     scene.set_sky({.model = SkyModel::constant, .luminance_nits = glm::vec3(100)});
     use_cone_tracing(scene, 32);
-    const Picture picture = cone_traced(scene, inside({0.6f, 0.7f, 0.6f}, {0, 0, 0}), 32, 8);
+    const Picture picture = cone_traced(scene, inside({0.6f, 0.7f, 0.6f}, {0, 0, 0}, 1.6f), 32, 8);
     EXPECT_LE(mean_luminance(picture.image), 1.1 * 1.102);  // of the 50 cd/m² in the open: measured, may only fall
 }
 

@@ -54,6 +54,16 @@ inline void add_room(Scene& scene, glm::vec3 min, glm::vec3 max, MaterialId mate
     }
 }
 
+/// A camera in a room.
+inline Camera inside(glm::vec3 eye, glm::vec3 target, float vertical_fov_rad = 1.9f) {
+    Camera camera;
+    camera.position = eye;
+    camera.target = target;
+    camera.vertical_fov_rad = vertical_fov_rad;
+    camera.ev100_override = 3.0f;
+    return camera;
+}
+
 /// The renderer with cone tracing, and the path tracer.
 class GlobalIllumination : public RealtimeTest {
 protected:

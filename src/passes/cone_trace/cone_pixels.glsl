@@ -24,8 +24,9 @@ vec3 position_at(ivec2 pixel, float depth_m) { return frame.position + depth_m *
 /// The viewer's direction about a normal: in its frame.
 vec3 viewer(ivec2 pixel, vec3 normal) { return to_local(frame_from_normal(normal), -normalize(view_ray(pixel))); }
 
-/// Where in their cells a pixel's cones stand. Narrow ones of one shift for all pixels would show as bands what the samples miss of
-/// small lamps: in squares of 8×8 each pixel has a shift of its own, by powers of the plastic number's inverse as samples have theirs.
+/// Where in their cells a pixel's cones stand. Narrow ones of one shift for all pixels would show as bands what the
+/// samples miss of small lamps: in squares of 8×8 each pixel has a shift of its own, by powers of the plastic number's
+/// inverse as samples have theirs.
 vec2 cone_shift_at(ivec2 pixel) {
     if (frame.cone_share >= 1.0f) return frame.cone_shift;  // a live picture in motion stays calm
     const vec3 powers = vec3(0.7548776662466927f, 0.5698402909980532f, 0.4301597090019468f);

@@ -236,9 +236,9 @@ struct ConeResult {
     float entered;  // cover of what was met from its front
 };
 
-/// What the cone meets from behind `at` a place on its way: the black rear of a sheet. Where it has gone into something before,
-/// this is how it leaves that again, and what interpolation kept from the front's cover shows as it did. `looked_up`: where in the
-/// lattice. The surface that the cone comes from, whose texels reach 3/2 edges, is not behind its origin.
+/// What the cone meets from behind `at` a place on its way: the black rear of a sheet. Where it has gone into something
+/// before, this is how it leaves that again, and what interpolation kept from the front's cover shows as it did.
+/// `looked_up`: where in the lattice. The surface that the cone comes from, whose texels reach 3/2 edges, is not behind its origin.
 uint meet_rear(ConeWalk walk, Layer layer, vec3 at, vec3 looked_up, float behind, float level, float mip, inout ConeResult result) {
     const vec3 first = face_coordinates(looked_up, layer.edge, level);
     vec3 normal;  // along the cone's way: what is seen from behind, less what is from the front
