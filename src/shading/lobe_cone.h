@@ -29,8 +29,8 @@ SHADING_FN vec2 specular_lobe_row(uint first, float x) {
     return mix(vec2(shading_table(first), shading_table(first + 1u)),
                vec2(shading_table(first + 2u), shading_table(first + 3u)), x);
 }
-/// What stands in a layer of specular_lobe_start's table: the mean direction's angle from the normal as a share of the mirror's, and
-/// √(1 − cos γ)/α; bilinear in √μ (to which the second of a narrow lobe is in proportion) and √α. Between the entries it
+/// What stands in a layer of specular_lobe_start's table: the mean direction's angle from the normal as a share of the
+/// mirror's, and √(1 − cos γ)/α; bilinear in √μ (to which the second of a narrow lobe is in proportion) and √α. Between the entries it
 /// is within 0.1° and 1 % of solid angle for μ ≥ 0.1, 10 % below (tests/shading/cone_test.cpp).
 SHADING_FN vec2 specular_lobe(float mu, float alpha, uint layer) {
     float row = alpha_coordinate(alpha) * float(specular_lobe_rows - 1u);
@@ -52,9 +52,10 @@ SHADING_FN Cone specular_cone_of(vec3 wo, float alpha, vec2 lobe) {
 SHADING_FN Cone specular_cone(vec3 wo, float alpha) {
     return specular_cone_of(wo, alpha, specular_lobe(wo.z, alpha, 0u));
 }
-/// With Schlick's factor for `f0`; `split`: ggx_albedo_split(). What reflects little from the front reflects most where facets are
-/// grazed: seen from low, a rough dielectric's cone looks ahead where a metal's looks up. The factor is linear in F0, so that
-/// every lobe is a mixture of those at F0 = lobe_dielectric_f0 and 1, by their energies; of cones the middle one is taken.
+/// With Schlick's factor for `f0`; `split`: ggx_albedo_split(). What reflects little from the front reflects most where
+/// facets are grazed: seen from low, a rough dielectric's cone looks ahead where a metal's looks up. The factor is linear
+/// in F0, so that every lobe is a mixture of those at F0 = lobe_dielectric_f0 and 1, by their energies; of cones the
+/// middle one is taken.
 SHADING_FN Cone specular_cone(vec3 wo, float alpha, float f0, vec2 split) {
     float dielectric = min(1.0f - f0, 0.98f) / (1.0f - lobe_dielectric_f0);  // water has less F0 than most
     float energy = dielectric * (lobe_dielectric_f0 * split.x + split.y);

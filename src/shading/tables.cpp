@@ -95,8 +95,8 @@ glm::dvec2 reflection_albedo(float mu, float alpha, const Rules& rules) {
 }
 
 /// specular_lobe()'s entry. Both moments are means over the visible normals (Heitz 2018, "Sampling the GGX Distribution of
-/// Visible Normals") times Fresnel's factor: with E = Σ share, the mean direction is
-/// that of Σ share · i, and Ω = E²/Σ share · density.
+/// Visible Normals") times Fresnel's factor: with E = Σ share, the mean direction is that of Σ share · i, and
+/// Ω = E²/Σ share · density.
 glm::vec2 mean_lobe(float mu, float alpha, float f0, const Rules& rules) {
     const VisibleNormals normals(mu, alpha);
     double energy = 0, mean_square = 0, x = 0, z = 0;

@@ -79,6 +79,9 @@ TEST_F(Ambient, AFaceTurnedFromTheSunShowsWhatTheShellReflects) {
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(found[c], albedo[c] * (seen + albedo[c] * reflected), 1e-3f * seen) << static_cast<int>(kind);
     }
+    scene.set_sky({});
+    const glm::vec3 alone = render(scene, camera, 4).rgb(1, 1);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(alone[c], albedo[c] * albedo[c] * 1000 * shading::shell_reflected(way.y), 0.1f);
 }
 
 TEST_F(Ambient, TheShellReflectsAFormulaSkyAsQuadratureHasItAndItsMeanEvenly) {

@@ -1,7 +1,5 @@
 // Cones that share the hemisphere among a still picture's samples, against the path tracer.
-#include "gi_test.h"
-#include "import/import.h"
-#include "shared_data.h"
+#include "gi_shared_scene.h"
 
 namespace heliodon::tests {
 namespace {
@@ -16,22 +14,17 @@ protected:
 };
 
 TEST_F(GiNarrow, TheyAreNearerToThePathTracerThanWideOnesInTheCornellBoxUnderAPointLight) {
-    if (!shared_path("scenes/cornell-point.heliodon.json")) GTEST_SKIP() << "no shared data";
-    Warnings warnings;
-    auto scene = load_scene(*shared_path("scenes/cornell-point.heliodon.json"), {}, warnings);
-    const auto reference = read_picture(std::filesystem::path(HELIODON_SOURCE_DIR) / "tests/references/gi-cornell-point.exr");
-    ASSERT_TRUE(scene && reference);
-    use_cone_tracing(*scene, 64);
-    Camera camera;
-    scene->cameras().each([&](CameraId, const Camera& first) { camera = first; });
+    auto box = cornell_box_under_a_point_light();
+    if (!box) GTEST_SKIP() << "no shared data";
     constexpr int size = 128, samples = 16;
     const auto error = [&] {
-        const auto metrics = compare(reference->image, cone_traced(*scene, camera, size, samples).image, reference->ev100);
+        const Image image = cone_traced(box->scene, box->camera, size, samples).image;
+        const auto metrics = compare(box->reference.image, image, box->reference.ev100);
         if (!metrics) ADD_FAILURE() << metrics.error().text();
         return metrics ? double(metrics->flip) : 1.0;
     };
     const double wide = error();
-    narrow_cones(*scene);
+    narrow_cones(box->scene);
     const double narrow = error();
     RecordProperty("wide", std::to_string(wide));
     RecordProperty("narrow", std::to_string(narrow));

@@ -1,7 +1,5 @@
 // Pixels that trace cones for those about them: a quarter of the resolution against all of it.
-#include "gi_test.h"
-#include "import/import.h"
-#include "shared_data.h"
+#include "gi_shared_scene.h"
 
 namespace heliodon::tests {
 namespace {
@@ -69,19 +67,13 @@ TEST_F(GiResolution, PixelsUnlikeAllTracedOnesTraceTheirOwn) {
 
 TEST_F(GiResolution, OnePixelInSixteenIsAsNearThePathTracerAsAllOfThem) {
     if (!std::getenv("HELIODON_FULL")) GTEST_SKIP() << "at full size only";
-    if (!shared_path("scenes/cornell-point.heliodon.json")) GTEST_SKIP() << "no shared data";
-    Warnings warnings;
-    auto scene = load_scene(*shared_path("scenes/cornell-point.heliodon.json"), {}, warnings);
-    const auto reference = read_picture(std::filesystem::path(HELIODON_SOURCE_DIR) / "tests/references/gi-cornell-point.exr");
-    ASSERT_TRUE(scene && reference);
-    use_cone_tracing(*scene, 64);
-    Camera camera;
-    scene->cameras().each([&](CameraId, const Camera& first) { camera = first; });
+    auto box = cornell_box_under_a_point_light();
+    if (!box) GTEST_SKIP() << "no shared data";
     // So many samples that every pixel has traced once; a pixel of this small picture is two voxels wide.
     constexpr int size = 128, frames = 16;
     const auto error = [&](ConeResolution resolution) {
-        const Picture picture = at_resolution(*scene, camera, resolution, size, frames);
-        const auto metrics = compare(reference->image, picture.image, reference->ev100);
+        const Picture picture = at_resolution(box->scene, box->camera, resolution, size, frames);
+        const auto metrics = compare(box->reference.image, picture.image, box->reference.ev100);
         if (!metrics) ADD_FAILURE() << metrics.error().text();
         if (prints_accuracy_table() && metrics)
             std::printf("| cornell-point | 64³ | one in %d | %.4f |\n", 1 << (2 * static_cast<int>(resolution)), metrics->flip);

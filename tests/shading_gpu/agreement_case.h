@@ -199,8 +199,9 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
                     sample_disk(vec2(v)).x);
     }
     if (k == 15u) {
-        Cone cone = specular_cone(wo, 0.01f + 0.9f * v.x);
-        return vec4(cone.direction, cone.one_minus_cos);
+        vec3 weight;
+        Cone cone = reflection_cone(wo, 0.01f + 0.9f * v.x, vec3(0.05f + 0.9f * v.y), vec2(u), i % 2u == 0u ? 1.0f : 0.25f, weight);
+        return vec4(cone.direction * (0.1f + weight.x), cone.one_minus_cos);
     }
     if (k == 16u) {
         Cone cone = diffuse_cone(i % 9u, i % 4u, 4u, vec2(v), 0.5f);

@@ -53,6 +53,7 @@ Result<CostSeries::Row> time(const std::string& name, const Load& load, const Ti
     settings.voxels = load.voxels;
     settings.revoxelize = Revoxelize::always;
     settings.vct.shadows = true;
+    settings.vct.narrow = false;  // as while something moves
     scene.set_render_settings(std::move(settings));
     auto timer = FrameTimer::create(scene, "built-in", options);
     if (!timer) return tl::unexpected(timer.error());

@@ -59,8 +59,8 @@ struct FrameData {
     uint random_seed;
     uint cone_traced;  // 1: indirect light and the sky come from cones through the voxel volume
     uint volume_light;  // of the batch: what it reaches is known by pixel (passes/shadow_volumes); or no_light
-    vec2 cone_shift;   // of diffuse_cone()
-    float cone_share;
+    vec2 cone_shift;   // of diffuse_cone() and reflection_cone()
+    float cone_share;  // likewise
 };
 
 SHADING_CONST uint no_light = 0xffffffffu;
