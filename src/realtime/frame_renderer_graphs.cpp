@@ -74,6 +74,7 @@ Result<void> FrameRenderer::build_frame_graph() {
     graph.export_image(sum);
     const passes::VolumeImages volume{graph.import_image(voxels_.inputs().faces->description()),
                                       graph.import_image(voxels_.inputs().depths->description()),
+                                      graph.import_image(voxels_.inputs().lobes->description()),
                                       graph.import_buffer(voxels_.inputs().occupancy->description())};
     const bool ahead = wanted_.surfaces_ahead, follows = wanted_.cone_traced;
     passes::DrawLists lists;
@@ -152,6 +153,7 @@ Result<void> FrameRenderer::build_frame_graph() {
     frame_executor_->bind(sum, sum_);
     frame_executor_->bind(volume.faces, *voxels_.inputs().faces);
     frame_executor_->bind(volume.depths, *voxels_.inputs().depths);
+    frame_executor_->bind(volume.lobes, *voxels_.inputs().lobes);
     frame_executor_->bind(volume.occupancy, *voxels_.inputs().occupancy);
     if (ahead) bind(*frame_executor_, seen, *surface_executor_, ahead_);
     if (fragments) frame_executor_->bind(fragments, fragments_);

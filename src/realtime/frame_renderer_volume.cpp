@@ -61,9 +61,9 @@ FrameSample unmoved(const FrameSample& sample) {
 
 Result<void> FrameRenderer::prepare_volume(const Camera& camera) {
     const VoxelVolume::Source source{gpu_scene_, inputs_, lighting_, shadow_depth_, shadow_slope_};
+    const bool isotropic = settings_.vct.filtering == VoxelFiltering::isotropic;
     const VoxelSettings settings{settings_.voxels, settings_.cascades, settings_.voxelizer == Voxelizer::raster,
-                                 settings_.revoxelize == Revoxelize::always,
-                                 settings_.vct.filtering == VoxelFiltering::isotropic};
+                                 settings_.revoxelize == Revoxelize::always, isotropic, settings_.vct.caustics && !isotropic};
     if (auto done = voxels_.prepare(source, settings, camera.position); !done) return done;
     wanted_.volume = voxels_.texture_revision();
     return {};

@@ -25,9 +25,9 @@ constexpr float snap_voxels = 2.0f;
 
 std::uint64_t cube(std::uint64_t n) { return n * n * n; }
 
-/// Bytes of the textures of all faces, with their levels.
-std::uint64_t texture_bytes(std::uint64_t size, std::uint64_t cascades) {
-    return (8 + 2) * shading::voxel_faces * cascades * cube(size) * 8 / 7;
+/// Bytes of the textures of all faces, with their levels; lobes have two texels where eight of the others are.
+std::uint64_t texture_bytes(std::uint64_t size, std::uint64_t cascades, bool lobes) {
+    return (8 + 2 + (lobes ? 2 : 0)) * shading::voxel_faces * cascades * cube(size) * 8 / 7;
 }
 
 float brightest_emission(const convert::FlatScene& flat) {
@@ -67,7 +67,7 @@ Result<void> VoxelVolume::check_size(const VoxelSettings& settings) const {
     if (std::max({2 * n, 3 * n, c * n}) > most)
         return fail("render.voxels", fmt::format("a volume of {} voxels an edge in {} cascades needs a 3D texture of {}x{}x{} "
                                                  "texels, the device has at most {} a side", n, c, 2 * n, c * n, 3 * n, most));
-    const std::uint64_t bytes = texture_bytes(n, c) + 8 * c * cube(n), memory = device_.info().memory_bytes;
+    const std::uint64_t bytes = texture_bytes(n, c, settings.lobes) + 8 * c * cube(n), memory = device_.info().memory_bytes;
     if (memory > 0 && bytes > memory)
         return fail("render.voxels", fmt::format("a volume of {} voxels an edge in {} cascades needs {} MiB, the device has {} MiB",
                                                  n, c, bytes >> 20, memory >> 20));
@@ -80,38 +80,45 @@ Result<void> VoxelVolume::open() {
         if (!made) return tl::unexpected(made.error());
         *buffer = std::move(*made);
     }
-    return make_texture({2, 1, 3});
+    return make_textures({2, 1, 3}, false);
 }
 
-Result<void> VoxelVolume::make_texture(VkExtent3D extent) {
+Result<void> VoxelVolume::make_textures(VkExtent3D extent, bool lobes) {
     gpu::SamplerDescription sampler = gpu::SamplerDescription::linear_clamp();
     sampler.mipmap_mode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
     auto trilinear = device_.sampler(sampler);
     if (!trilinear) return tl::unexpected(trilinear.error());
-    faces_ = {};
-    depths_ = {};
-    gpu::ImageDescription description{.name = "voxel faces", .format = VK_FORMAT_R16G16B16A16_SFLOAT, .extent = extent,
-                                      .mips = static_cast<std::uint32_t>(std::bit_width(extent.width / 2)),
-                                      .shape = gpu::ImageShape::volume, .usage = VK_IMAGE_USAGE_STORAGE_BIT};
-    for (gpu::Image* image : {&faces_, &depths_}) {
-        auto made = gpu::Image::create(device_, description);
+    const auto levels = static_cast<std::uint32_t>(std::bit_width(extent.width / 2));
+    const VkExtent3D half = lobes ? VkExtent3D{extent.width / 2, extent.height / 2, extent.depth} : VkExtent3D{1, 1, 1};
+    struct Texture {
+        gpu::Image& image;
+        const char* name;
+        VkFormat format;
+        VkExtent3D extent;
+        std::uint32_t mips;
+    };
+    const Texture textures[] = {{faces_, "voxel faces", VK_FORMAT_R16G16B16A16_SFLOAT, extent, levels},
+                                {depths_, "voxel depths", VK_FORMAT_R16_SFLOAT, extent, levels},
+                                {lobes_, "voxel lobes", VK_FORMAT_R16G16B16A16_SFLOAT, half, lobes ? levels - 1 : 1}};
+    for (const Texture& texture : textures) texture.image = {};
+    for (const Texture& texture : textures) {
+        auto made = gpu::Image::create(device_, {.name = texture.name, .format = texture.format, .extent = texture.extent, .mips = texture.mips,
+                                                 .shape = gpu::ImageShape::volume, .usage = VK_IMAGE_USAGE_STORAGE_BIT});
         if (!made)
             return fail("render.voxels", fmt::format("a volume of {}x{}x{} texels: {}", extent.width, extent.height, extent.depth,
                                                      made.error().text()));
-        *image = std::move(*made);
-        description.name = "voxel depths";
-        description.format = VK_FORMAT_R16_SFLOAT;
+        texture.image = std::move(*made);
     }
     ++texture_revision_;
     shown_ = {};
     auto occupancy = zeroed(device_, "occupancy", passes::occupancy_bytes(extent.width / 2, extent.height / (extent.width / 2)));
     if (!occupancy) return tl::unexpected(occupancy.error());
     occupancy_ = std::move(*occupancy);
-    inputs_ = {&faces_, &depths_, &data_buffer_, &occupancy_, *trilinear, 2 * extent.height > extent.width};
+    inputs_ = {&faces_, &depths_, &lobes_, &data_buffer_, &occupancy_, *trilinear, 2 * extent.height > extent.width, lobes};
     shown_inputs_ = inputs_;
     shown_inputs_.data = &shown_buffer_;
     return device_.run("clear volume", [&](gpu::Commands& commands) {
-        for (const gpu::Image* image : {&faces_, &depths_}) {
+        for (const gpu::Image* image : {&faces_, &depths_, &lobes_}) {
             commands.transition(*image, cleared);
             commands.clear({image}, {});
             commands.transition(*image, sampled);
@@ -141,7 +148,8 @@ Result<void> VoxelVolume::make_buffers() {
                                       .and_then([&] { return make(cascade->shown_cells, "shown cells", sizes.cells); })
                                       .and_then([&] { return make(cascade->shown_levels, "shown levels", sizes.levels); })
                                       .and_then([&] { return make(cascade->lit_faces, "lit faces", passes::lit_faces_bytes(record_capacity_)); })
-                                      .and_then([&] { return make(cascade->illuminance, "voxel illuminance", face_bytes); })
+                                      .and_then([&] { return make(cascade->exitance, "voxel exitance", face_bytes); })
+                                      .and_then([&] { return settings_.lobes ? make(cascade->lobes, "voxels' lobes", face_bytes) : Result<void>{}; })
                                       .and_then([&] { return make(cascade->gathered, "gathered light", face_bytes); })
                                       .and_then([&] { return make(cascade->shown_gathered, "shown gathered light", face_bytes); });
         if (!done) return done;
@@ -273,7 +281,7 @@ Result<void> VoxelVolume::prepare(const Source& source, const VoxelSettings& set
             tile_capacity_ = std::max(tile_capacity_, 4 * n * n / (shading::voxel_tile_edge * shading::voxel_tile_edge));
         }
         const auto n = static_cast<std::uint32_t>(settings.voxels), c = static_cast<std::uint32_t>(settings.cascades);
-        if (auto done = make_texture({2 * n, c * n, 3 * n}); !done) return done;
+        if (auto done = make_textures({2 * n, c * n, 3 * n}, settings.lobes); !done) return done;
         if (auto done = make_buffers(); !done) return done;
         listed_revision_ = ~0ull;
         ++placement_revision_;

@@ -17,6 +17,7 @@ struct VoxelSettings {
     bool raster = false;  ///< the hardware rasterizer voxelizes
     bool anew = false;    ///< all surfaces each time, also those that never moved
     bool isotropic = false;  ///< a voxel shows one value to all sides
+    bool lobes = true;       ///< what surfaces reflect specularly of lights goes ahead, not to all sides
     bool operator==(const VoxelSettings&) const = default;
 };
 
@@ -94,7 +95,7 @@ public:
 
 private:
     struct Cascade {
-        gpu::Buffer numbers, cells, records, tiles, levels, lit_faces, illuminance, gathered;
+        gpu::Buffer numbers, cells, records, tiles, levels, lit_faces, exitance, lobes, gathered;
         gpu::Buffer shown_numbers, shown_cells, shown_levels, shown_gathered;
         gpu::Buffer still_numbers, still_cells, still_records;  ///< surfaces that never moved: VoxelHeader, …
         shading::InjectConstants constants{};
@@ -120,7 +121,8 @@ private:
     };
     struct VolumeGraph;
     [[nodiscard]] Result<void> check_size(const VoxelSettings& settings) const;
-    [[nodiscard]] Result<void> make_texture(VkExtent3D extent);
+    /// `lobes`: those of the volume, too.
+    [[nodiscard]] Result<void> make_textures(VkExtent3D extent, bool lobes);
     [[nodiscard]] Result<void> make_buffers();
     [[nodiscard]] Result<void> make_still_buffers();
     void set_lights(std::uint32_t light_first, std::uint32_t light_count, bool add);
@@ -152,7 +154,7 @@ private:
     GrowingBuffer still_ranges_{"triangle ranges", 0}, moving_ranges_{"moving triangle ranges", 0};
     float emission_unit_ = 1;
     gpu::Buffer data_buffer_, shown_buffer_;
-    gpu::Image faces_, depths_;
+    gpu::Image faces_, depths_, lobes_;
     gpu::Buffer occupancy_;
     passes::VolumeInputs inputs_, shown_inputs_;  // shown_inputs_: for light gathered while the texture is made anew
 };

@@ -39,6 +39,7 @@ struct VoxelVolume::VolumeGraph {
 VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
     VolumeGraph volume;
     volume.images = {volume.graph.import_image(faces_.description()), volume.graph.import_image(depths_.description()),
+                     volume.graph.import_image(lobes_.description()),
                      volume.graph.import_buffer(occupancy_.description())};
     volume.shadow_maps = {volume.graph.import_image(source.shadow_depth.description()),
                           volume.graph.import_image(source.shadow_slope.description())};
@@ -55,7 +56,8 @@ VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
                         import(cascade->levels), data_.size, record_capacity_, tile_capacity_};
         one.lit_faces = import(cascade->lit_faces);
         one.gather_faces = &cascade->gather_faces;
-        one.illuminance = import(cascade->illuminance);
+        one.exitance = import(cascade->exitance);
+        if (cascade->lobes) one.lobes = import(cascade->lobes);
         one.gathered = import(cascade->gathered);
         one.isotropic = settings_.isotropic;
         volume.cascades.push_back(one);
@@ -68,10 +70,13 @@ VoxelVolume::VolumeGraph VoxelVolume::begin_graph(const Source& source) const {
 Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& volume, const Source& source) const {
     volume.graph.export_image(volume.images.faces, graph::Usage::sampled);
     volume.graph.export_image(volume.images.depths, graph::Usage::sampled);
+    volume.graph.export_image(volume.images.lobes, graph::Usage::sampled);
     volume.graph.export_buffer(volume.images.occupancy);
     for (const auto& one : volume.cascades)
+        if (one.lobes) volume.graph.export_buffer(one.lobes);
+    for (const auto& one : volume.cascades)
         for (const graph::BufferHandle buffer : {one.surfaces.numbers, one.surfaces.cells, one.surfaces.records,
-                                                 one.surfaces.tiles, one.surfaces.levels, one.lit_faces, one.illuminance, one.gathered,
+                                                 one.surfaces.tiles, one.surfaces.levels, one.lit_faces, one.exitance, one.gathered,
                                                  one.shown.numbers, one.shown.cells, one.shown.levels, one.shown.gathered})
             volume.graph.export_buffer(buffer);
     for (const passes::CarriedSurfaces& still : volume.still)
@@ -79,6 +84,7 @@ Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& v
     if (auto done = executor.set_graph(volume.graph); !done) return done;
     executor.bind(volume.images.faces, faces_);
     executor.bind(volume.images.depths, depths_);
+    executor.bind(volume.images.lobes, lobes_);
     executor.bind(volume.images.occupancy, occupancy_);
     executor.bind(volume.shadow_maps.depth, source.shadow_depth);
     executor.bind(volume.shadow_maps.slope, source.shadow_slope);
@@ -95,7 +101,8 @@ Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& v
         executor.bind(one.shown.levels, cascade.shown_levels);
         executor.bind(one.shown.gathered, cascade.shown_gathered);
         executor.bind(one.lit_faces, cascade.lit_faces);
-        executor.bind(one.illuminance, cascade.illuminance);
+        executor.bind(one.exitance, cascade.exitance);
+        if (one.lobes) executor.bind(one.lobes, cascade.lobes);
         executor.bind(one.gathered, cascade.gathered);
         if (volume.still.empty()) continue;
         executor.bind(volume.still[i].numbers, cascade.still_numbers);
@@ -172,6 +179,8 @@ Result<void> VoxelVolume::build_graphs(const Source& source) {
                 return done;
         for (const auto& cascade : volume.cascades)
             if (auto done = passes::add_radiance(volume.graph, pipelines_, cascade, volume.images, emission_only); !done) return done;
+        for (const auto& cascade : volume.cascades)
+            if (auto done = passes::add_lobes(volume.graph, pipelines_, cascade, volume.images, emission_only); !done) return done;
         if (auto done = passes::add_filter(volume.graph, pipelines_, volume.cascades[last], volume.images, occupied->work); !done) return done;
         return passes::add_emptiness(volume.graph, pipelines_, volume.cascades, volume.images, occupied->faces);
     };

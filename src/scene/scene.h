@@ -177,6 +177,7 @@ struct ConeTracingSettings {
     bool ao = true;        ///< off: the sky is not occluded
     int cones = 9;         ///< over the hemisphere; a multiple of 9
     bool narrow = true;    ///< a still picture's samples share the hemisphere and the lobe: the more, the narrower their cones
+    bool caustics = true;  ///< what surfaces reflect specularly of lights goes ahead to others, not to all sides evenly
     ConeResolution resolution = ConeResolution::full;
     VoxelFiltering filtering = VoxelFiltering::anisotropic;
     bool operator==(const ConeTracingSettings&) const = default;

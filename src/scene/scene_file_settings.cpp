@@ -141,6 +141,7 @@ ConeTracingSettings read_cone_tracing(const JsonCursor& cursor) {
         if (settings.cones % hemisphere_cones != 0) cones->refuse(fmt::format("a multiple of {}", hemisphere_cones));
     }
     object.read("narrow", settings.narrow);
+    object.read("caustics", settings.caustics);
     if (const auto resolution = object.find("resolution"))
         settings.resolution = resolution->one_of<ConeResolution>(
             {{"full", ConeResolution::full}, {"half", ConeResolution::half}, {"quarter", ConeResolution::quarter}});

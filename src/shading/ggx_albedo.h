@@ -20,7 +20,8 @@
 SHADING_BEGIN
 
 // The array: A, B interleaved, row by row; averages of A, B a row; glass by side (thin, dense), index,
-// row, column; its averages by side, index, row; the average Fresnel reflectance by index; lobe_cone.h's pairs.
+// row, column; its averages by side, index, row; the average Fresnel reflectance by index; lobe_cone.h's pairs;
+// reflected_light.h's triples.
 SHADING_CONST uint ggx_albedo_columns = 64u;
 SHADING_CONST uint ggx_albedo_rows = 128u;
 SHADING_CONST uint ggx_albedo_averages = 2u * 128u * 64u;
@@ -35,13 +36,16 @@ SHADING_CONST uint specular_lobe_rows = 48u;
 SHADING_CONST uint specular_lobe_layers = 2u;  // at Fresnel 1, and for an F0 of lobe_dielectric_f0
 SHADING_CONST float lobe_dielectric_f0 = 0.04f;  // of index 1.5
 SHADING_CONST uint specular_lobe_start = 2u * 128u * 64u + 2u * 128u + 2u * 12u * 16u * 24u + 2u * 12u * 16u + 12u;
+SHADING_CONST uint reflected_lobe_columns = 32u;
+SHADING_CONST uint reflected_lobe_rows = 32u;
+SHADING_CONST uint reflected_lobe_start = specular_lobe_start + 2u * 2u * 48u * 48u;  // layers as before
 // Of what SHADING_EXTENDED models look up (ggx_anisotropic.h, sheen.h), after all of the others.
 SHADING_CONST uint stretched_rows = 20u;      // of √α along the direction
 SHADING_CONST uint stretched_breadths = 20u;  // of √α across it
 SHADING_CONST uint stretched_shears = 5u;     // of (αx αy / both of these)²
 SHADING_CONST uint stretched_columns = 18u;   // of √μ
 SHADING_CONST uint stretched_averages = 32u;  // of √αx and of √αy
-SHADING_CONST uint stretched_albedo_start = specular_lobe_start + 2u * 2u * 48u * 48u;
+SHADING_CONST uint stretched_albedo_start = reflected_lobe_start + 3u * 2u * 32u * 32u;
 SHADING_CONST uint stretched_average_start = stretched_albedo_start + 2u * 20u * 20u * 5u * 18u;
 SHADING_CONST uint sheen_rows = 16u;     // of roughness
 SHADING_CONST uint sheen_columns = 24u;  // of √μ

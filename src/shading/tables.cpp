@@ -9,6 +9,7 @@
 #include "shading/extended_tables.h"
 #include "shading/fresnel.h"
 #include "shading/ggx_albedo.h"
+#include "shading/plane_lobe.h"
 #include "shading/quadrature.h"
 
 namespace heliodon::shading {
@@ -94,24 +95,25 @@ glm::dvec2 reflection_albedo(float mu, float alpha, const Rules& rules) {
     return sum;
 }
 
-/// specular_lobe()'s entry. Both moments are means over the visible normals (Heitz 2018, "Sampling the GGX Distribution of
-/// Visible Normals") times Fresnel's factor: with E = Σ share, the mean direction is that of Σ share · i, and
-/// Ω = E²/Σ share · density.
-glm::vec2 mean_lobe(float mu, float alpha, float f0, const Rules& rules) {
+/// Means over the visible normals (Heitz 2018, "Sampling the GGX Distribution of Visible Normals") times Fresnel's factor.
+struct LobeMeans {
+    double energy = 0;
+    glm::dvec2 direction{0};  ///< its sum: x along the viewer's, and the normal
+    double mean_square = 0;   ///< of its density
+};
+LobeMeans lobe_means(float mu, float alpha, float f0, const Rules& rules) {
     const VisibleNormals normals(mu, alpha);
-    double energy = 0, mean_square = 0, x = 0, z = 0;
+    LobeMeans means;
     visit_reflections(normals, rules, [&](vec3 h, double unmasked) {
         const float facing = dot(normals.wo, h);
         const vec3 i = h * (2.0f * facing) - normals.wo;
         const double fresnel = f0 + (1.0 - f0) * schlick_weight(facing);
         const double share = unmasked * fresnel;
-        energy += share;
-        x += share * i.x;
-        z += share * i.z;
-        mean_square += share * fresnel * ggx_reflection(normals.wo, i, h, alpha);
+        means.energy += share;
+        means.direction += share * glm::dvec2(i.x, i.z);
+        means.mean_square += share * fresnel * ggx_reflection(normals.wo, i, h, alpha);
     });
-    const double one_minus_cos = energy * energy / mean_square / (2 * std::numbers::pi);
-    return {static_cast<float>(std::atan2(-x, z) / std::acos(double(mu))), static_cast<float>(std::sqrt(one_minus_cos) / alpha)};
+    return means;
 }
 
 /// Reflection with height-correlated and refraction with separable masking, as bsdf.h has them.
@@ -208,10 +210,28 @@ void fill_specular_lobes(std::span<float> table, const Rules& rules) {
         for (std::size_t i = 0; i < specular_lobe_columns; ++i) {
             const double x = static_cast<double>(i) / (specular_lobe_columns - 1);
             const auto mu = static_cast<float>(std::clamp(x * x, smallest_mu, largest_mu));
-            const glm::vec2 cone = mean_lobe(mu, alpha, f0, rules);
+            const LobeMeans means = lobe_means(mu, alpha, f0, rules);
+            const double one_minus_cos = means.energy * means.energy / means.mean_square / (2 * std::numbers::pi);
             const std::size_t entry = specular_lobe_start + 2 * (row * specular_lobe_columns + i);
-            table[entry] = cone.x;
-            table[entry + 1] = cone.y;
+            table[entry] = static_cast<float>(std::atan2(-means.direction.x, means.direction.y) / std::acos(double(mu)));
+            table[entry + 1] = static_cast<float>(std::sqrt(one_minus_cos) / alpha);
+        }
+    });
+}
+
+void fill_reflected_lobes(std::span<float> table, const Rules& rules) {
+    constexpr double least_mu = 1e-3;  // nothing shines on a plane from lower
+    each_table_row(specular_lobe_layers * reflected_lobe_rows, [&](std::size_t row) {
+        const float f0 = row < reflected_lobe_rows ? 1.0f : lobe_dielectric_f0;
+        const float alpha = alpha_of_row(row % reflected_lobe_rows, reflected_lobe_rows);
+        for (std::size_t i = 0; i < reflected_lobe_columns; ++i) {
+            const double x = static_cast<double>(i) / (reflected_lobe_columns - 1);
+            const LobeMeans means = lobe_means(static_cast<float>(std::max(x * x, least_mu)), alpha, f0, rules);
+            const PlaneLobe lobe = plane_lobe(means.direction / means.energy);
+            const std::size_t entry = reflected_lobe_start + 3 * (row * reflected_lobe_columns + i);
+            table[entry] = static_cast<float>(lobe.mean.x);
+            table[entry + 1] = static_cast<float>(lobe.mean.y);
+            table[entry + 2] = static_cast<float>(lobe.clamped_cosine);
         }
     });
 }
@@ -251,6 +271,7 @@ std::vector<float> compute_tables() {
     fill_reflection(table, rules);
     fill_glass(table, rules);
     fill_specular_lobes(table, rules);
+    fill_reflected_lobes(table, rules);
     fill_extended_tables(table);
     return table;
 }

@@ -307,7 +307,7 @@ const std::vector<BadFile>& bad_files() {
          "$.render.ambient_occlusion: expected true, false or an object, found 3"},
         {"UnknownEffect", R"("render": {"vct": {"gloss": true}})",
          "$.render.vct.gloss: unknown key; expected diffuse, specular, refraction, shadows, ao, cones, narrow, "
-         "resolution, filtering"},
+         "caustics, resolution, filtering"},
         {"UnknownResolution", R"("render": {"vct": {"resolution": "eighth"}})",
          "$.render.vct.resolution: expected one of \"full\", \"half\", \"quarter\", found \"eighth\""},
         {"EffectNotBoolean", R"("render": {"vct": {"shadows": 1}})",

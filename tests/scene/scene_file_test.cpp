@@ -391,7 +391,7 @@ TEST(SceneFile, ReadsEverySettingOfVoxelConeTracing) {
     EXPECT_EQ(plain.render_settings().bounces, 0) << "all of them";
     const Scene scene = parsed(R"({"heliodon": 1, "render": {"gi": "vct", "voxels": 512, "cascades": 5, "bounces": 2,
         "revoxelize": "always", "voxelizer": "compute", "rasterizer": "hardware", "vct": {"diffuse": false, "specular": false,
-        "refraction": false, "shadows": true, "ao": false, "cones": 36, "narrow": false, "resolution": "half",
+        "refraction": false, "shadows": true, "ao": false, "cones": 36, "narrow": false, "caustics": false, "resolution": "half",
         "filtering": "isotropic"}}})");
     const RenderSettings& render = scene.render_settings();
     EXPECT_EQ(render.voxels, 512);
@@ -407,6 +407,7 @@ TEST(SceneFile, ReadsEverySettingOfVoxelConeTracing) {
                                                .ao = false,
                                                .cones = 36,
                                                .narrow = false,
+                                               .caustics = false,
                                                .resolution = ConeResolution::half,
                                                .filtering = VoxelFiltering::isotropic}));
 }

@@ -176,6 +176,7 @@ bool edit_cone_tracing(ConeTracingSettings& vct) {
     edited |= ImGui::Checkbox("shadows by cones", &vct.shadows);
     edited |= ImGui::Checkbox("occlusion of the sky", &vct.ao);
     edited |= ImGui::Checkbox("narrow cones in still pictures", &vct.narrow);
+    edited |= ImGui::Checkbox("caustics", &vct.caustics);
     edited |= number_choice("diffuse cones", vct.cones, {9, 18, 36, 72, 144});
     edited |= named_choice("resolution", vct.resolution, "full\0half\0quarter\0");
     edited |= named_choice("voxels show", vct.filtering, "six sides\0one value\0");

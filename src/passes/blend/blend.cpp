@@ -74,7 +74,7 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
             pass.read_write(picture, Usage::storage_read_write);
         },
         [&scene, &lighting, shadow_maps, heads, fragments, picture, extent, compose = *compose](PassContext& context) {
-            const auto bindings = select_bindings(*compose, scene,
+            const auto bindings = select_bindings(*compose, scene, with_volume(*lighting.volume,
                                                   {{8, *lighting.frame},
                                                    {9, *lighting.shadow_views},
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
@@ -82,13 +82,9 @@ Result<void> add_blend(graph::Graph& graph, gpu::Pipelines& pipelines, SceneInpu
                                                    {11, *lighting.shading_tables},
                                                    {24, *lighting.light_grid},
                                                    {16, *lighting.visible_lights},
-                                                   {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
-                                                   {21, *lighting.volume->data},
-                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
-                                                   {23, *lighting.volume->occupancy},
                                                    {12, context.buffer(fragments)},
                                                    {13, context.buffer(heads)},
-                                                   {14, context.image(picture)}});
+                                                   {14, context.image(picture)}}));
             context.commands.dispatch_threads(*compose, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
         });
     return {};

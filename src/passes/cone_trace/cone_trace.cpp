@@ -45,11 +45,9 @@ void read_surfaces_and_volume(graph::PassBuilder& pass, const ConeTrace& cones) 
 /// Of `pipeline`: the scene's and the volume's with `own`.
 std::vector<gpu::Binding> bindings_of(const ConeTrace& cones, const gpu::Pipeline& pipeline, const graph::PassContext& context,
                                       std::vector<NumberedBinding> own) {
-    own.insert(own.end(), {{20, gpu::Binding(context.image(cones.images.faces), cones.volume.trilinear)},
-                           {22, gpu::Binding(context.image(cones.images.depths), cones.volume.trilinear)},
-                           {23, *cones.volume.occupancy}});
     return select_bindings(pipeline, cones.scene,
-                           surface_bindings(context, cones.lighting, cones.volume, cones.surfaces, cones.weights, std::move(own)));
+                           with_volume(cones.volume, surface_bindings(context, cones.lighting, cones.volume, cones.surfaces, cones.weights,
+                                                                      std::move(own))));
 }
 
 }  // namespace

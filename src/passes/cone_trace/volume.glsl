@@ -7,9 +7,13 @@
 #define HELIODON_VOLUME_GLSL
 #include "passes/cone_trace/volume_data.glsl"
 #include "passes/occupancy/occupancy_shared.h"
+#include "shading/cone.h"
+#include "shading/spherical_lobe.h"
 
 layout(set = 0, binding = 20) uniform sampler3D voxel_faces_texture;
 layout(set = 0, binding = 22) uniform sampler3D voxel_depths_texture;
+layout(set = 0, binding = 30) uniform sampler3D voxel_lobes_texture;
+layout(constant_id = 22) const bool has_lobes = false;
 layout(constant_id = 6) const bool nested = true;  // there is more than one cascade
 layout(set = 0, binding = 23, std430) readonly buffer Occupancy { uint emptiness[]; };
 
@@ -254,6 +258,18 @@ uint meet_rear(ConeWalk walk, Layer layer, vec3 at, vec3 looked_up, float behind
     return met;
 }
 
+/// Radiance × cover that a layer's faces send along the cone of the lights that shine on them, `at` a place of the texture of
+/// lobes. A lobe that a cone sees is as wide as both together: variances add.
+vec3 sent_ahead(ConeWalk walk, vec3 at, float mip, float cover) {
+    const vec4 light = textureLod(voxel_lobes_texture, at, mip);
+    if (light.rgb == vec3(0.0f)) return vec3(0.0f);
+    const vec4 lobe = textureLod(voxel_lobes_texture, at + vec3(0.0f, 0.0f, 0.5f), mip);
+    const float sum = max(length(lobe.xyz), 1.0e-6f);
+    const float concentration = lobe_through_cone(lobe_concentration(sum / max(lobe.w, 1.0e-6f)), one_minus_cos_from_tan(3.0f * walk.radius));
+    const vec3 back = mix(-walk.slope, walk.slope, walk.backward);
+    return light.rgb * (lobe_density(concentration, dot(lobe.xyz, back) / sum) * cover / light.a);
+}
+
 /// What the cone meets of the layer it looks at, if it does ahead of its origin and within its reach. A face deeper than
 /// the cone goes in this texel is left to a look there: here interpolation shows the ends of what stands elsewhere.
 uint meet_layer(ConeWalk walk, Layer layer, inout ConeResult result) {
@@ -285,6 +301,13 @@ uint meet_layer(ConeWalk walk, Layer layer, inout ConeResult result) {
     if (face.a <= 0.0f) return missed;
     const float gained = min(face.a, 1.0f - result.cover);
     result.radiance += face.rgb * (gained / face.a);
+    if (has_lobes) {
+        const float edge = mip == 0.0f ? 2.0f * layer.edge : layer.edge;  // they begin at level 1
+        const float layers_middle = (floor(number * layer.edge * inverse_power(edge)) + 0.5f) * edge;
+        const vec3 lobes_middle = vec3(turned ? walk.wide - layers_middle : layers_middle);
+        const vec3 lobe_at = corner + face_coordinates(mix(place(walk, walked(walk, meets)), lobes_middle, layer.axis), edge, float(level));
+        result.radiance += sent_ahead(walk, lobe_at * vec3(1.0f, 1.0f, 0.5f), max(mip - 1.0f, 0.0f), gained);
+    }
     result.cover += gained;
     result.entered += gained;
     return met;

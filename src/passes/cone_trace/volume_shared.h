@@ -14,6 +14,8 @@ struct VolumeCascade {
 /// All faces of all cascades lie in one 3D texture of 2 n × cascades n × 3 n texels: the face of axis a (x y z) that
 /// looks to the positive (s = 0) or negative side (s = 1) of cascade c begins at (s n, c n, a n). Beside radiance × cover
 /// and cover (RGBA) a second texture, alike, has depth × cover: where in its layer, 0 … 1, the face stands.
+/// A third, from level 1 on and so half as large, has what faces send ahead of lights (passes/inject/face_lobe.glsl): × cover,
+/// the light with cover, and as far again along z the direction with its weight.
 struct VolumeData {
     vec3 lattice;         // world position of the lattice's origin
     float voxel_m;        // edge of the finest voxels

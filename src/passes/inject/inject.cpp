@@ -19,6 +19,9 @@ constexpr VkDeviceSize lit_gather_groups = offsetof(shading::LitFacesHeader, gat
 constexpr std::uint32_t every_side = (1u << shading::voxel_faces) - 1;
 
 VkDeviceSize level_groups(std::uint32_t level) { return level * sizeof(glm::uvec4); }
+gpu::Specialization lobes_constant(const InjectCascade& cascade) { return {{22, cascade.lobes ? 1u : 0u}}; }
+/// Where there are none, something that nothing reads.
+graph::BufferHandle lobes_or_none(const InjectCascade& cascade) { return cascade.lobes ? cascade.lobes : cascade.exitance; }
 std::uint32_t level_count(std::uint32_t size) { return static_cast<std::uint32_t>(std::bit_width(size)); }
 
 shading::FilterConstants level_constants(const InjectCascade& cascade, std::uint32_t level) {
@@ -45,7 +48,7 @@ VkDeviceSize lit_faces_bytes(std::uint32_t record_capacity) {
 }
 
 Result<void> add_list_faces(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade) {
-    auto pipeline = pipelines.compute("passes/inject/list_faces.comp");
+    auto pipeline = pipelines.compute("passes/inject/list_faces.comp", lobes_constant(cascade));
     if (!pipeline) return tl::unexpected(pipeline.error());
     auto find_kept = pipelines.compute("passes/inject/find_kept.comp");
     if (!find_kept) return tl::unexpected(find_kept.error());
@@ -87,7 +90,8 @@ Result<void> add_list_faces(graph::Graph& graph, gpu::Pipelines& pipelines, cons
             pass.read(cascade.surfaces.records, Usage::storage_read);
             pass.read(cascade.shown.gathered, Usage::storage_read);
             pass.read(sources, Usage::storage_read);
-            pass.read_write(cascade.illuminance, Usage::storage_read_write);
+            pass.read_write(cascade.exitance, Usage::storage_read_write);
+            if (cascade.lobes) pass.read_write(cascade.lobes, Usage::storage_read_write);
             pass.read_write(cascade.gathered, Usage::storage_read_write);
             pass.read_write(cascade.lit_faces, Usage::storage_read_write);
         },
@@ -95,9 +99,10 @@ Result<void> add_list_faces(graph::Graph& graph, gpu::Pipelines& pipelines, cons
             const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
             context.commands.dispatch_indirect(*list, *cascade.constants,
                                                {numbers, context.buffer(cascade.surfaces.cells),
-                                                context.buffer(cascade.surfaces.records), context.buffer(cascade.illuminance),
+                                                context.buffer(cascade.surfaces.records), context.buffer(cascade.exitance),
                                                 context.buffer(cascade.shown.gathered), context.buffer(sources),
-                                                context.buffer(cascade.gathered), context.buffer(cascade.lit_faces)},
+                                                context.buffer(cascade.gathered), context.buffer(cascade.lit_faces),
+                                                context.buffer(lobes_or_none(cascade))},
                                                numbers, record_groups);
         });
     return {};
@@ -135,6 +140,8 @@ Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, co
     if (!clear_records) return tl::unexpected(clear_records.error());
     auto clear_levels = pipelines.compute("passes/inject/clear_levels.comp");
     if (!clear_levels) return tl::unexpected(clear_levels.error());
+    auto clear_lobes = pipelines.compute("passes/inject/clear_lobes.comp");
+    if (!clear_lobes) return tl::unexpected(clear_lobes.error());
     graph.add_pass(
         "voxelize empty", PassKind::compute,
         [&](PassBuilder& pass) {
@@ -146,8 +153,9 @@ Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, co
             pass.read(cascade.shown.levels, Usage::indirect);
             pass.write(images.faces, Usage::storage_write);
             pass.write(images.depths, Usage::storage_write);
+            if (cascade.lobes) pass.write(images.lobes, Usage::storage_write);
         },
-        [cascade, images, levels, clear_records = *clear_records, clear_levels = *clear_levels](PassContext& context) {
+        [cascade, images, levels, clear_records = *clear_records, clear_levels = *clear_levels, clear_lobes = *clear_lobes](PassContext& context) {
             if (!*cascade.outdated) return;
             const VoxelSurfaces& surfaces = cascade.surfaces;
             const gpu::Buffer& numbers = context.buffer(cascade.shown.numbers);
@@ -159,6 +167,9 @@ Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, co
             const gpu::Buffer& lists = context.buffer(cascade.shown.levels);
             for (std::uint32_t level = 1; levels && level < level_count(surfaces.size); ++level)
                 context.commands.dispatch_indirect(*clear_levels, level_constants(cascade, level), {lists, faces.mip(level), depths.mip(level)},
+                                                   lists, level_groups(level));
+            for (std::uint32_t level = 1; cascade.lobes && level < (levels ? level_count(surfaces.size) : 2); ++level)
+                context.commands.dispatch_indirect(*clear_lobes, level_constants(cascade, level), {lists, context.image(images.lobes).mip(level - 1)},
                                                    lists, level_groups(level));
         });
     return {};
@@ -190,10 +201,11 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
             pass.read(shadow_maps.slope, Usage::sampled);
             if (shares) pass.read(shares, Usage::storage_read);  // of the volume's shadows, which it then need not find
             else read_volume(pass, images);
-            pass.read_write(cascade.illuminance, Usage::storage_read_write);
+            pass.read_write(cascade.exitance, Usage::storage_read_write);
+            if (cascade.lobes) pass.read_write(cascade.lobes, Usage::storage_read_write);
         },
         [&scene, &lighting, cascade, shadow_maps, shares, direct = *pipeline](PassContext& context) {
-            const auto bindings = select_bindings(*direct, scene,
+            const auto bindings = select_bindings(*direct, scene, with_volume(*lighting.volume,
                                                   {{9, *lighting.shadow_views},
                                                    {24, *lighting.light_grid},
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
@@ -202,12 +214,10 @@ Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, co
                                                    {17, context.buffer(cascade.surfaces.cells)},
                                                    {25, context.buffer(cascade.lit_faces)},
                                                    {18, context.buffer(cascade.surfaces.records)},
-                                                   {19, context.buffer(cascade.illuminance)},
-                                                   {27, context.buffer(shares ? shares : cascade.surfaces.cells)},  // else nothing reads it
-                                                   {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
-                                                   {21, *lighting.volume->data},
-                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
-                                                   {23, *lighting.volume->occupancy}});
+                                                   {19, context.buffer(cascade.exitance)},
+                                                   {28, context.buffer(lobes_or_none(cascade))},
+                                                   {11, *lighting.shading_tables},
+                                                   {27, context.buffer(shares ? shares : cascade.surfaces.cells)}}));  // else nothing reads it
             dispatch_lit_faces(context, *direct, cascade, bindings, lit_groups, every_side);
         });
     return {};
@@ -232,16 +242,12 @@ Result<void> add_gather(graph::Graph& graph, gpu::Pipelines& pipelines, const Sc
         [&scene, &volume, cascade, images, gather = *pipeline,
          record_beside = beside ? beside->record : nullptr](PassContext& context) {
             if (record_beside) record_beside(context);
-            const auto bindings = select_bindings(*gather, scene,
+            const auto bindings = select_bindings(*gather, scene, with_volume(volume,
                                                   {{16, context.buffer(cascade.surfaces.numbers)},
                                                    {17, context.buffer(cascade.surfaces.cells)},
                                                    {25, context.buffer(cascade.lit_faces)},
                                                    {18, context.buffer(cascade.surfaces.records)},
-                                                   {19, context.buffer(cascade.gathered)},
-                                                   {20, gpu::Binding(context.image(images.faces), volume.trilinear)},
-                                                   {21, *volume.data},
-                                                   {22, gpu::Binding(context.image(images.depths), volume.trilinear)},
-                                                   {23, *volume.occupancy}});
+                                                   {19, context.buffer(cascade.gathered)}}));
             dispatch_lit_faces(context, *gather, cascade, bindings, lit_gather_groups, cascade.gather_faces->all);
             dispatch_lit_faces(context, *gather, cascade, bindings, lit_gather_groups, cascade.gather_faces->unlit, true);
         });
@@ -259,7 +265,7 @@ Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const 
             pass.read(cascade.surfaces.numbers, Usage::indirect);
             pass.read(cascade.surfaces.cells, Usage::storage_read);
             pass.read(cascade.surfaces.records, Usage::storage_read);
-            pass.read(cascade.illuminance, Usage::storage_read);
+            pass.read(cascade.exitance, Usage::storage_read);
             pass.read(cascade.gathered, Usage::storage_read);
             pass.write(images.faces, Usage::storage_write);
             pass.write(images.depths, Usage::storage_write);
@@ -268,7 +274,7 @@ Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const 
             const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
             context.commands.dispatch_indirect(*radiance, *cascade.constants,
                                                {numbers, context.buffer(cascade.surfaces.cells),
-                                                context.buffer(cascade.surfaces.records), context.buffer(cascade.illuminance),
+                                                context.buffer(cascade.surfaces.records), context.buffer(cascade.exitance),
                                                 context.image(images.faces).mip(0), context.image(images.depths).mip(0),
                                                 context.buffer(cascade.gathered)},
                                                numbers, record_groups);
@@ -276,10 +282,46 @@ Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const 
     return {};
 }
 
+void read_lobe_records(PassBuilder& pass, const InjectCascade& cascade) {
+    pass.read(cascade.surfaces.numbers, Usage::storage_read);
+    pass.read(cascade.surfaces.records, Usage::storage_read);
+    pass.read(cascade.lobes, Usage::storage_read);
+}
+
+/// A level of what faces send ahead, level 1 from the records, the others from the level before.
+void record_lobes(PassContext& context, const gpu::ComputePipeline& pipeline, const InjectCascade& cascade, const VolumeImages& images,
+                  std::uint32_t level) {
+    const gpu::Buffer& lists = context.buffer(cascade.surfaces.levels);
+    const gpu::Image& lobes = context.image(images.lobes);
+    context.commands.dispatch_indirect(pipeline, level_constants(cascade, level),
+                                       {lists, context.buffer(cascade.surfaces.records), context.buffer(cascade.surfaces.numbers),
+                                        lobes.mip(level > 1 ? level - 2 : 0), lobes.mip(level - 1), context.buffer(cascade.lobes)},
+                                       lists, level_groups(level));
+}
+
+Result<void> add_lobes(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade, const VolumeImages& images,
+                       bool emission_only) {
+    if (!cascade.lobes) return {};
+    auto pipeline = pipelines.compute("passes/inject/lobes.comp", {{0, emission_only ? 1u : 0u}, {1, 1}});
+    if (!pipeline) return tl::unexpected(pipeline.error());
+    graph.add_pass(
+        "lobes", PassKind::compute,
+        [&](PassBuilder& pass) {
+            pass.read(cascade.surfaces.levels, Usage::storage_read);
+            pass.read(cascade.surfaces.levels, Usage::indirect);
+            read_lobe_records(pass, cascade);
+            pass.read_write(images.lobes, Usage::storage_read_write);
+        },
+        [cascade, images, lobes = *pipeline](PassContext& context) { record_lobes(context, *lobes, cascade, images, 1); });
+    return {};
+}
+
 Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade, const VolumeImages& images,
                         const FinestWork& beside) {
     auto pipeline = pipelines.compute("passes/inject/filter.comp", {{0, cascade.isotropic ? 1u : 0u}});
     if (!pipeline) return tl::unexpected(pipeline.error());
+    auto filter_lobes = pipelines.compute("passes/inject/lobes.comp", {{0, 0}, {1, 0}});
+    if (!filter_lobes) return tl::unexpected(filter_lobes.error());
     graph.add_pass(
         "filter", PassKind::compute,
         [&](PassBuilder& pass) {
@@ -287,9 +329,13 @@ Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const In
             pass.read(cascade.surfaces.levels, Usage::indirect);
             pass.read_write(images.faces, Usage::storage_read_write);
             pass.read_write(images.depths, Usage::storage_read_write);
+            if (cascade.lobes) {
+                read_lobe_records(pass, cascade);
+                pass.read_write(images.lobes, Usage::storage_read_write);
+            }
             beside.uses(pass);
         },
-        [cascade, images, beside = beside.record, filter = *pipeline](PassContext& context) {
+        [cascade, images, beside = beside.record, filter = *pipeline, filter_lobes = *filter_lobes](PassContext& context) {
             const gpu::Buffer& lists = context.buffer(cascade.surfaces.levels);
             const gpu::Image &faces = context.image(images.faces), &depths = context.image(images.depths);
             beside(context);
@@ -297,6 +343,7 @@ Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const In
                 if (level > 1) context.commands.compute_barrier();
                 context.commands.dispatch_indirect(*filter, level_constants(cascade, level),
                                                    {lists, faces.mip(level - 1), faces.mip(level), depths.mip(level - 1), depths.mip(level)}, lists, level_groups(level));
+                if (cascade.lobes && level > 1) record_lobes(context, *filter_lobes, cascade, images, level);
             }
         });
     return {};

@@ -33,8 +33,9 @@ struct InjectCascade {
     VoxelSurfaces surfaces;
     graph::BufferHandle lit_faces;    ///< LitFacesHeader and the lists
     const GatherFaces* gather_faces = nullptr;  ///< the next gathering is for
-    graph::BufferHandle illuminance;  ///< of the lights in lux: 16 bytes a record's face
-    graph::BufferHandle gathered;     ///< of the volume and the sky, as above; w: 1 once a face has gathered
+    graph::BufferHandle exitance;     ///< what faces reflect of the lights evenly, in lux: 16 bytes a record's face
+    graph::BufferHandle lobes;        ///< and ahead (face_lobe.glsl), likewise; if any
+    graph::BufferHandle gathered;     ///< illuminance from the volume and the sky, likewise; w: 1 once a face has gathered
     bool isotropic = false;           ///< a voxel shows one value to all sides
 };
 
@@ -46,7 +47,7 @@ void add_keep_shown(graph::Graph& graph, const InjectCascade& cascade);
 /// If the texture is outdated, empties what it shows of a cascade; `levels`: its coarse levels too.
 [[nodiscard]] Result<void> add_volume_clear(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
                                             const VolumeImages& images, bool levels);
-/// Illuminance of one batch of lights (light_first and light_count of the constants) by the resident shadow maps,
+/// What faces reflect of one batch of lights (light_first and light_count of the constants) by the resident shadow maps,
 /// or by cones through the volume as it is, which `shares` holds already where they were traced beside the gathering.
 [[nodiscard]] Result<void> add_direct_light(graph::Graph& graph, gpu::Pipelines& pipelines, const SceneInputs& scene,
                                             const LightingInputs& lighting, const InjectCascade& cascade,
@@ -60,12 +61,15 @@ struct VoxelShadows;  // passes/shadow_cones
 /// Writes level 0: emission, and unless `emission_only` what both illuminances reflect.
 [[nodiscard]] Result<void> add_radiance(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
                                         const VolumeImages& images, bool emission_only);
+/// Writes level 1 of what faces send ahead, if a cascade has lobes: unless `emission_only`, of the lights.
+[[nodiscard]] Result<void> add_lobes(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
+                                     const VolumeImages& images, bool emission_only);
 /// Work on level 0 of the texture, to go beside the filtering of level 1.
 struct FinestWork {
     std::function<void(graph::PassBuilder&)> uses;
     std::function<void(graph::PassContext&)> record;
 };
-/// Writes the coarse levels of a cascade from its level 0.
+/// Writes the coarse levels of a cascade from its level 0, and of its lobes from level 1.
 [[nodiscard]] Result<void> add_filter(graph::Graph& graph, gpu::Pipelines& pipelines, const InjectCascade& cascade,
                                       const VolumeImages& images, const FinestWork& beside);
 

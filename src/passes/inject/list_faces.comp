@@ -5,10 +5,12 @@
 #include "passes/inject/enclosed_faces.glsl"
 
 layout(local_size_y = voxel_faces) in;
-layout(set = 0, binding = 19, std430) writeonly buffer Illuminance { vec4 illuminance[]; };
+layout(set = 0, binding = 19, std430) writeonly buffer Exitance { vec4 exitance[]; };
 layout(set = 0, binding = 20, std430) readonly buffer Kept { vec4 kept[]; };
 layout(set = 0, binding = 21, std430) readonly buffer Sources { uint source[]; };  // find_kept.comp
 layout(set = 0, binding = 22, std430) writeonly buffer Gathered { vec4 gathered[]; };
+layout(set = 0, binding = 28, std430) writeonly buffer Lobes { uvec4 face_lobes[]; };
+layout(constant_id = 22) const bool has_lobes = false;
 layout(set = 0, binding = 25, std430) buffer LitFaces { LitFacesHeader header; uint lit_records[]; };
 
 layout(push_constant) uniform Push { InjectConstants push; };
@@ -24,7 +26,10 @@ bool reflects(uint record, uint face) {
     const uint first = index * voxel_field_count;
     const bool there = records[first + voxel_field_area] != 0u;
     const bool lit = there && !vanishes(first + voxel_field_albedo) && !vanishes(first + voxel_field_normal);
-    if (there && !lit) illuminance[index] = vec4(0.0f);  // of the others nothing reads it
+    if (there && !lit) {  // of the others nothing reads it
+        exitance[index] = vec4(0.0f);
+        if (has_lobes) face_lobes[index] = uvec4(0u);
+    }
     const uint from = lit ? source[record] : 0u;
     gathered[index] = from != 0u ? kept[(from - 1u) * voxel_faces + face] : vec4(0.0f);
     return lit;

@@ -7,7 +7,7 @@
 #include "shading/sampling.h"
 
 layout(local_size_y = voxel_faces) in;  // a side each: of one voxel they stand side by side in memory
-layout(set = 0, binding = 19, std430) readonly buffer Illuminance { vec4 illuminance[]; };  // of the lights
+layout(set = 0, binding = 19, std430) readonly buffer Exitance { vec4 exitance[]; };  // reflected of the lights
 layout(set = 0, binding = 20, rgba16f) uniform writeonly image3D faces;
 layout(set = 0, binding = 21, r16f) uniform writeonly image3D depths;
 layout(set = 0, binding = 22, std430) readonly buffer Gathered { vec4 gathered[]; };
@@ -22,7 +22,7 @@ vec4 face_value(VoxelFace face, uint index) {
     if (face.area <= 0.0f) return vec4(vec3(0.0f), -min(face.behind, 1.0f));
     const float cover = min(face.area, 1.0f);
     vec3 radiance = face.emission * push.grid.emission_unit;
-    if (!emission_only) radiance += cover * face.albedo * inverse_pi * (illuminance[index].rgb + gathered[index].rgb);
+    if (!emission_only) radiance += cover * inverse_pi * (exitance[index].rgb + face.albedo * gathered[index].rgb);
     return vec4(radiance / push.grid.radiance_unit, cover);
 }
 

@@ -80,7 +80,7 @@ Result<void> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const Sce
                 pass.write(written, graph::Usage::storage_write);
         },
         [&scene, &lighting, ids, shadow_maps, traced_shadows, shadowed, left, picture, extent, shade = *pipeline](graph::PassContext& context) {
-            const auto bindings = select_bindings(*shade, scene,
+            const auto bindings = select_bindings(*shade, scene, with_volume(*lighting.volume,
                                                   {{8, *lighting.frame},
                                                    {9, *lighting.shadow_views},
                                                    {10, gpu::Binding(context.image(shadow_maps.depth), lighting.nearest)},
@@ -88,17 +88,13 @@ Result<void> add_shade(graph::Graph& graph, gpu::Pipelines& pipelines, const Sce
                                                    {11, *lighting.shading_tables},
                                                    {24, *lighting.light_grid},
                                                    {16, *lighting.visible_lights},
-                                                   {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
-                                                   {21, *lighting.volume->data},
-                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
-                                                   {23, *lighting.volume->occupancy},
                                                    {12, gpu::Binding(context.image(ids), lighting.nearest)},
                                                    {19, gpu::Binding(context.image(traced_shadows ? traced_shadows : ids), lighting.nearest)},
                                                    {29, gpu::Binding(context.image(shadowed ? shadowed : ids), lighting.nearest)},
                                                    {13, context.image(picture)},
                                                    {14, context.image(left.places)},
                                                    {17, context.image(left.albedos)},
-                                                   {18, context.image(left.lobes)}});
+                                                   {18, context.image(left.lobes)}}));
             context.commands.dispatch_threads(*shade, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
         });
     return {};

@@ -26,14 +26,10 @@ Result<graph::ImageHandle> add_pixel_shadows(graph::Graph& graph, gpu::Pipelines
             pass.write(traced, Usage::storage_write);
         },
         [&scene, &lighting, ids, traced, cells, shadows = *pipeline](graph::PassContext& context) {
-            const auto bindings = select_bindings(*shadows, scene,
+            const auto bindings = select_bindings(*shadows, scene, with_volume(*lighting.volume,
                                                   {{8, *lighting.frame},
                                                    {12, gpu::Binding(context.image(ids), lighting.nearest)},
-                                                   {13, context.image(traced)},
-                                                   {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
-                                                   {21, *lighting.volume->data},
-                                                   {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
-                                                   {23, *lighting.volume->occupancy}});
+                                                   {13, context.image(traced)}}));
             context.commands.dispatch_threads(*shadows, gpu::NoPushConstants{}, bindings, {cells.width, cells.height, 1});
         });
     return traced;
@@ -57,15 +53,11 @@ Result<VoxelShadows> voxel_shadows(graph::Graph& graph, gpu::Pipelines& pipeline
     };
     result.record = [&scene, &lighting, cascade, shares = result.shares, shadows = *pipeline](graph::PassContext& context) {
         const gpu::Buffer& numbers = context.buffer(cascade.surfaces.numbers);
-        const auto bindings = select_bindings(*shadows, scene,
+        const auto bindings = select_bindings(*shadows, scene, with_volume(*lighting.volume,
                                               {{16, numbers},
                                                {17, context.buffer(cascade.surfaces.cells)},
                                                {18, context.buffer(cascade.surfaces.records)},
-                                               {19, context.buffer(shares)},
-                                               {20, gpu::Binding(*lighting.volume->faces, lighting.volume->trilinear)},
-                                               {21, *lighting.volume->data},
-                                               {22, gpu::Binding(*lighting.volume->depths, lighting.volume->trilinear)},
-                                               {23, *lighting.volume->occupancy}});
+                                               {19, context.buffer(shares)}}));
         context.commands.dispatch_indirect(*shadows, *cascade.constants, bindings, numbers, offsetof(shading::VoxelHeader, record_groups));
     };
     return result;

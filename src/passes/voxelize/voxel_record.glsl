@@ -11,6 +11,8 @@ struct VoxelFace {
     float area;      // shown, in faces of a voxel
     float behind;    // of what it sees from behind, likewise
     vec3 albedo;     // mean over the area
+    float specular;  // of it, mean of the channels
+    float alpha;     // of what is specular
     vec3 emission;   // radiance × cover in units of the grid's emission: 1 face of emitters at most
     vec3 normal;     // unit
     vec3 position;   // world, on the surface's outer side
@@ -28,13 +30,15 @@ vec3 record_vector(uint first) {
 
 VoxelFace voxel_face(VoxelGrid grid, uint record, uint face) {
     const uint first = (record * voxel_faces + face) * voxel_field_count;
-    VoxelFace result = VoxelFace(0.0f, 0.0f, vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f));
+    VoxelFace result = VoxelFace(0.0f, 0.0f, vec3(0.0f), 0.0f, 0.0f, vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f));
     result.behind = float(records[first + voxel_field_behind]) * (1.0f / voxel_fixed_one);
     result.within = vec3(0.5f);
     if (records[first] == 0u) return result;
     result.area = float(records[first]) * (1.0f / voxel_fixed_one);
     const float inverse = 1.0f / result.area;
     result.albedo = record_vector(first + voxel_field_albedo) * inverse;
+    result.specular = float(records[first + voxel_field_specular]) * (inverse / voxel_fixed_one);
+    result.alpha = float(records[first + voxel_field_alpha]) * (inverse / voxel_fixed_one);
     // Where more surface lies in the voxel than it has room for, what emits is not thinned by what does not.
     const float emissive = float(records[first + voxel_field_emissive_area]) * (1.0f / voxel_fixed_one);
     result.emission = record_vector(first + voxel_field_emission) / max(1.0f, emissive);

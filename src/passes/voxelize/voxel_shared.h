@@ -75,9 +75,9 @@ struct VoxelSurface {
     vec3 emission;  // in units of the grid's
     float opacity;  // there at all
     uint flags;     // voxel_surface_…
-    uint padding0;
-    uint padding1;
-    uint padding2;
+    float specular;  // of the albedo, mean of its channels
+    float alpha;     // of what is specular
+    uint padding;
 };
 SHADING_CONST uint voxel_surface_varies = 1u;  // from place to place: each piece of a triangle has its own
 SHADING_CONST uint voxel_surface_two_sided = 2u;
@@ -113,10 +113,12 @@ SHADING_CONST uint voxel_field_area = 0u;  // projected, in faces of a voxel
 SHADING_CONST uint voxel_field_albedo = 1u;
 SHADING_CONST uint voxel_field_normal = 4u;    // signed
 SHADING_CONST uint voxel_field_position = 7u;  // in the voxel, 0 … 1
-SHADING_CONST uint voxel_field_emission = 10u;  // from here on nothing but zeros for what does not emit
-SHADING_CONST uint voxel_field_emissive_area = 13u;
-SHADING_CONST uint voxel_field_behind = 14u;  // area of what it sees from behind
-SHADING_CONST uint voxel_field_count = 15u;
+SHADING_CONST uint voxel_field_specular = 10u;
+SHADING_CONST uint voxel_field_alpha = 11u;
+SHADING_CONST uint voxel_field_emission = 12u;  // from here on nothing but zeros for what does not emit
+SHADING_CONST uint voxel_field_emissive_area = 15u;
+SHADING_CONST uint voxel_field_behind = 16u;  // area of what it sees from behind
+SHADING_CONST uint voxel_field_count = 17u;
 SHADING_CONST float voxel_fixed_one = 1048576.0f;  // 2²⁰: 4095 voxel faces of area before a sum is full
 
 SHADING_END

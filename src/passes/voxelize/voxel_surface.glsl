@@ -58,8 +58,12 @@ VoxelSurface surface_of(GeometryData geometry, MaterialData material, MaterialPo
     result.opacity = point.opacity;
     const vec3 through = point.surface.model == material_model_standard ? bsdf_transmission_albedo_prepared(point.surface, lobes) : vec3(0.0f);
     result.cover = point.opacity * (1.0f - (through.x + through.y + through.z) * (1.0f / 3.0f));
-    result.albedo = point.opacity * (bsdf_diffuse_albedo_prepared(point.surface, lobes) +
-                                     bsdf_specular_albedo_prepared(point.surface, lobes) + bsdf_coat_albedo_prepared(lobes));
+    const vec3 specular = bsdf_specular_albedo_prepared(point.surface, lobes);
+    const float coat = bsdf_coat_albedo_prepared(lobes);
+    result.albedo = point.opacity * (bsdf_diffuse_albedo_prepared(point.surface, lobes) + specular + coat);
+    const float base = dot(specular, vec3(1.0f / 3.0f));
+    result.specular = point.opacity * (base + coat);
+    result.alpha = base + coat > 0.0f ? (base * lobes.alpha + coat * lobes.coat_alpha) / (base + coat) : 0.0f;
     result.emission = push.grid.emission_unit > 0.0f ? point.opacity * point.emission / push.grid.emission_unit : vec3(0.0f);
     result.flags = (varies(geometry, material) ? voxel_surface_varies : 0u) |
                    ((material.flags & material_flag_two_sided) != 0u ? voxel_surface_two_sided : 0u) |
