@@ -53,15 +53,16 @@ struct Corner {
 TEST_F(GiCaustics, AWallThatTheSunGrazesLightsTheFloorBelowIt) {
     Corner corner(rough(glm::vec3(0.3f), 0, 0.6f), lambert(glm::vec3(0.5f)), {0, -0.966f, -0.259f});
     const Seen floor = seen(corner.scene, camera_above(1.7f, 0.9f));
-    EXPECT_NEAR(floor.ahead / floor.path, 1, 0.08);
-    EXPECT_LT(floor.to_all_sides / floor.path, 0.8);
+    EXPECT_NEAR(floor.ahead / floor.path, 1, 0.04);  // 1.014
+    // 0.613: evenly to all sides, at the mean albedo
+    EXPECT_LT(floor.to_all_sides / floor.path, 0.7);
 }
 
 TEST_F(GiCaustics, ASunlitMetalFloorLightsTheWallAhead) {
     Corner corner(lambert(glm::vec3(0.5f)), rough(glm::vec3(0.9f, 0.7f, 0.4f), 1, 0.4f), {0, -0.6f, -0.8f});
     const Seen wall = seen(corner.scene, inside({0, 0.8f, 0.6f}, {0, 0.8f, -1}, 0.9f));
-    EXPECT_NEAR(wall.ahead / wall.path, 1, 0.08);
-    EXPECT_LT(wall.to_all_sides / wall.path, 0.8);
+    EXPECT_NEAR(wall.ahead / wall.path, 1, 0.04);  // 0.984
+    EXPECT_LT(wall.to_all_sides / wall.path, 0.4);  // 0.281
 }
 
 TEST_F(GiCaustics, WhatReflectsNothingSpecularlyIsTheSameWithoutThem) {

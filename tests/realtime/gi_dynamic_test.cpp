@@ -13,10 +13,14 @@ protected:
         const MaterialId white = scene.add_material(lambert(glm::vec3(0.73f)));
         Material glowing = lambert(glm::vec3(0.4f));
         glowing.emission_nits = {30, 25, 20};
+        Material copper;  // sends the light ahead
+        copper.base_color = {0.6f, 0.2f, 0.1f};
+        copper.metallic = 1;
+        copper.roughness = 0.4f;
         add_room(scene, {-1, 0, -1}, {1, 2, 1}, white);
         add_shape_node(scene, Quad{{0.2f, 1.9f, -0.3f}, {0.4f, 0, 0}, {0, 0, 0.5f}}, scene.add_material(glowing));
         crate = add_shape_node(scene, Box{{-0.2f, -0.2f, -0.2f}, {0.2f, 0.2f, 0.2f}},
-                               scene.add_material(lambert({0.6f, 0.2f, 0.1f})));
+                               scene.add_material(copper));
         light = add_point_light(scene, {0, 1.5f, 0}, glm::vec3(20));
         place(0);
         use_cone_tracing(scene, 32);
