@@ -32,18 +32,24 @@ auto over_sphere(const Value& f) { return integral(-1, f); }
 template <class Value>
 auto over_plane(const Value& f) { return integral(0, f); }
 
-/// Of a lobe of mean `mean` and light 1: what its radiance sends through the plane, and the direction of that on the average.
+/// What goes through the plane, and its direction on the average.
 struct Flux {
     double all = 0;
     glm::dvec3 mean{0};
+    double low = 0;  ///< share within 30° of the plane
 };
-Flux flux_of(vec3 mean) {
-    const float sum = std::max(length(mean), 1e-6f);
-    const auto radiance = [&](vec3 d) { return double(lobe_density(lobe_concentration(sum), dot(mean, d) / sum)); };
+template <class Radiance>
+Flux flux_of(const Radiance& times_cosine) {
     Flux flux;
-    flux.all = over_plane([&](vec3 d) { return radiance(d) * d.z; });
-    flux.mean = over_plane([&](vec3 d) { return glm::dvec3(d) * (radiance(d) * d.z); }) / flux.all;
+    flux.all = over_plane(times_cosine);
+    flux.mean = over_plane([&](vec3 d) { return glm::dvec3(d) * times_cosine(d); }) / flux.all;
+    flux.low = over_plane([&](vec3 d) { return d.z < 0.5f ? times_cosine(d) : 0.0; }) / flux.all;
     return flux;
+}
+/// Of a lobe of mean `mean` and light 1.
+Flux flux_of_lobe(vec3 mean) {
+    const float sum = std::max(length(mean), 1e-6f);
+    return flux_of([&](vec3 d) { return double(lobe_density(lobe_concentration(sum), dot(mean, d) / sum) * d.z); });
 }
 
 TEST(SphericalLobe, SharesItsLightAmongAllDirectionsAndHasItsMean) {
@@ -80,7 +86,7 @@ TEST(PlaneLobe, OfAnEvenFluxIsEvenRadiance) {
 TEST(PlaneLobe, SendsItsFluxWhereItWasAskedTo) {
     for (const glm::dvec2 asked : {glm::dvec2(-0.73, 0.44), {-0.35, 0.46}, {-0.9, 0.32}, {0, 0.8}, {0.3, 0.7}, {-0.59, 0.79}, {-0.96, 0.26}}) {
         const PlaneLobe lobe = plane_lobe(asked);
-        const Flux flux = flux_of(vec3(lobe.mean.x, 0, lobe.mean.y));
+        const Flux flux = flux_of_lobe(vec3(lobe.mean.x, 0, lobe.mean.y));
         EXPECT_NEAR(flux.mean.x, asked.x, 0.02);
         EXPECT_NEAR(flux.mean.z, asked.y, 0.02);
         EXPECT_NEAR(lobe.clamped_cosine / flux.all, 1, 0.02) << asked.x << " " << asked.y;
@@ -90,11 +96,7 @@ TEST(PlaneLobe, SendsItsFluxWhereItWasAskedTo) {
 /// What the model's GGX lobe sends on of light from `wi`, and where.
 Flux reflected_specularly(const Surface& surface, vec3 wi) {
     const BsdfLobes lobes = bsdf_prepare(surface, wi);
-    const auto value = [&](vec3 d) { return double(bsdf_evaluate_prepared(surface, lobes, wi, d).x); };
-    Flux flux;
-    flux.all = over_plane(value);
-    flux.mean = over_plane([&](vec3 d) { return glm::dvec3(d) * value(d); }) / flux.all;
-    return flux;
+    return flux_of([&](vec3 d) { return double(bsdf_evaluate_prepared(surface, lobes, wi, d).x); });
 }
 
 TEST(ReflectedLight, GoesOnAsMuchAndWhereTheGgxLobeSendsIt) {
@@ -108,8 +110,9 @@ TEST(ReflectedLight, GoesOnAsMuchAndWhereTheGgxLobeSendsIt) {
             const Flux exact = reflected_specularly(surface, direction(mu, 0.7f));
             EXPECT_NEAR(light.specular.x / exact.all, 1, 0.03) << roughness << " at " << mu;
             EXPECT_EQ(light.diffuse, vec3(0));
-            const Flux lobe = flux_of(light.mean);
+            const Flux lobe = flux_of_lobe(light.mean);
             EXPECT_NEAR(lobe.all / light.clamped_cosine, 1, 0.08) << roughness << " at " << mu;
+            EXPECT_NEAR(lobe.low, exact.low, 0.05) << roughness << " at " << mu;
             for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(lobe.mean[axis], exact.mean[axis], 0.03) << roughness << " at " << mu;
         }
 }

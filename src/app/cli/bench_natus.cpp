@@ -37,6 +37,7 @@ void set_up(Scene& scene, const NatusTiming& timing) {
     settings.vct.shadows = timing.test.shadows_by_cones;
     settings.vct.ao = timing.test.occlusion;
     settings.vct.narrow = false;  // as while something moves
+    settings.vct.caustics = false;  // voxels reflect diffusely, as the published engine's
     settings.vct.resolution = ConeResolution::quarter;  // no less accurate at this size (docs/accuracy.md)
     scene.set_render_settings(std::move(settings));
     set_bulb_radius(scene, timing.test.bulb_radius_m);
