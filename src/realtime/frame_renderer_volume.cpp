@@ -205,7 +205,8 @@ Result<void> FrameRenderer::converge_volume(const FrameSample& sample) {
         if (auto done = bounce({}); !done) return done;
         auto total = voxels_.total_radiance();
         if (!total) return tl::unexpected(total.error());
-        if (std::abs(*total - before) <= converged_change * *total) break;
+        // What lobes hold is not in the total: of metals alone nothing else shows at first.
+        if (done_so_far > 0 && std::abs(*total - before) <= converged_change * *total) break;
         before = *total;
     }
     // With all bounces the light is at rest, and more sets of cones only make it finer.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "shading/quadrature.h"
+#include "shading/spherical_lobe.h"
 
 namespace heliodon::shading {
 namespace {
@@ -88,8 +89,10 @@ PlaneLobe plane_lobe(glm::dvec2 flux_mean) {
         eta += change;
     }
     PlaneLobe lobe;
-    const double concentration = std::max(glm::length(eta), 1e-6);
-    lobe.mean = eta / concentration * mean_length(concentration);
+    // No narrower than shaders have them: the density and the clamped cosine must be of one lobe.
+    const double concentration = std::clamp(glm::length(eta), 1e-6, double(lobe_concentration(longest_lobe_mean)));
+    eta /= std::max(glm::length(eta), 1e-6);
+    lobe.mean = eta * mean_length(concentration);
     if (solved) {
         // The density over the sphere is κ e^(κ (a·ω − 1)) / (2π (1 − e^−2κ)).
         lobe.clamped_cosine = moments.flux * concentration / (2 * std::numbers::pi * -std::expm1(-2 * concentration));

@@ -38,15 +38,20 @@ protected:
     }
 };
 
-/// A wall behind a floor, under a sun and a black sky.
+glm::vec3 turned(glm::vec3 v, float yaw_rad) {
+    return {std::cos(yaw_rad) * v.x + std::sin(yaw_rad) * v.z, v.y, std::cos(yaw_rad) * v.z - std::sin(yaw_rad) * v.x};
+}
+
+/// A wall behind a floor, under a sun and a black sky; all of it turned about the vertical.
 struct Corner {
     Scene scene;
     NodeId sun;
 
-    Corner(const Material& wall, const Material& floor, glm::vec3 sun_direction) {
-        add_shape_node(scene, Quad{{-1.5f, 0, -1}, {0, 0, 2.4f}, {3, 0, 0}}, scene.add_material(floor));
-        add_shape_node(scene, Quad{{-1.5f, 0, -1}, {3, 0, 0}, {0, 2, 0}}, scene.add_material(wall));
-        sun = add_sun(scene, sun_direction, glm::vec3(10000));
+    Corner(const Material& wall, const Material& floor, glm::vec3 sun_direction, float yaw_rad = 0) {
+        const auto at = [&](float x, float y, float z) { return turned({x, y, z}, yaw_rad); };
+        add_shape_node(scene, Quad{at(-1.5f, 0, -1), at(0, 0, 2.4f), at(3, 0, 0)}, scene.add_material(floor));
+        add_shape_node(scene, Quad{at(-1.5f, 0, -1), at(3, 0, 0), at(0, 2, 0)}, scene.add_material(wall));
+        sun = add_sun(scene, turned(sun_direction, yaw_rad), glm::vec3(10000));
     }
 };
 
@@ -56,6 +61,45 @@ TEST_F(GiCaustics, AWallThatTheSunGrazesLightsTheFloorBelowIt) {
     EXPECT_NEAR(floor.ahead / floor.path, 1, 0.04);  // 1.014
     // 0.613: evenly to all sides, at the mean albedo
     EXPECT_LT(floor.to_all_sides / floor.path, 0.7);
+}
+
+TEST_F(GiCaustics, ItDoesSoHoweverItLiesInTheLattice) {
+    for (const float yaw_rad : {0.5236f, 0.7854f}) {
+        Corner corner(rough(glm::vec3(0.3f), 0, 0.6f), lambert(glm::vec3(0.5f)), {0, -0.966f, -0.259f}, yaw_rad);
+        Camera camera = camera_above(1.7f, 0.9f);
+        camera.up = turned(camera.up, yaw_rad);
+        const Seen floor = seen(corner.scene, camera);
+        EXPECT_NEAR(floor.ahead / floor.path, 1, 0.04) << yaw_rad;  // 0.982 at 45°
+        EXPECT_LT(floor.to_all_sides / floor.path, 0.7);
+    }
+}
+
+TEST_F(GiCaustics, WhatAMetalAloneReflectsOfALampGoesOnBouncing) {
+    // Nothing but the metal is lit, and nothing shines back evenly after one bounce.
+    Scene scene;
+    const MaterialId white = scene.add_material(lambert(glm::vec3(0.7f)));
+    add_shape_node(scene, Quad{{-0.15f, 0, -0.15f}, {0, 0, 0.3f}, {0.3f, 0, 0}}, scene.add_material(rough(glm::vec3(0.9f), 1, 0.4f)));
+    add_shape_node(scene, Quad{{-1, 0, -1}, {2, 0, 0}, {0, 1.5f, 0}}, white);
+    add_shape_node(scene, Quad{{1, 0, -1}, {0, 0, 2}, {0, 1.5f, 0}}, white);
+    Node lamp;
+    lamp.transform.translation = {0, 1.2f, 1.2f};
+    lamp.transform.rotation = rotation_from_euler_deg({-45, 0, 0});
+    lamp.light = Light{.type = LightType::spot, .intensity = glm::vec3(10000), .inner_rad = 0.06f, .outer_rad = 0.08f};
+    scene.add_node(lamp);
+    const Camera side_wall = inside({-0.6f, 0.6f, 0.3f}, {1, 0.6f, 0}, 0.9f);
+    use_cone_tracing(scene, 64);
+    const auto indirect = [&](int bounces) {
+        RenderSettings settings = scene.render_settings();
+        settings.bounces = bounces;
+        scene.set_render_settings(settings);
+        start_over();
+        return mean_luminance(layer(cone_traced(scene, side_wall, 32, 4), "indirect"));
+    };
+    const double path = mean_luminance(layer(path_traced(scene, side_wall, 32, 4096, 3, {"indirect"}), "indirect"));
+    const double one = indirect(1), two = indirect(2);
+    RecordProperty("two", std::to_string(two / path));
+    EXPECT_LT(one, 0.8 * path);
+    EXPECT_NEAR(two / path, 1, 0.08);  // 0.937
 }
 
 TEST_F(GiCaustics, ASunlitMetalFloorLightsTheWallAhead) {

@@ -267,7 +267,7 @@ vec3 sent_ahead(ConeWalk walk, vec3 at, float mip, float cover) {
     const float sum = max(length(lobe.xyz), 1.0e-6f);
     const float concentration = lobe_through_cone(lobe_concentration(sum / max(lobe.w, 1.0e-6f)), one_minus_cos_from_tan(3.0f * walk.radius));
     const vec3 back = mix(-walk.slope, walk.slope, walk.backward);
-    return light.rgb * (lobe_density(concentration, dot(lobe.xyz, back) / sum) * cover / light.a);
+    return light.rgb * (lobe_density(concentration, dot(lobe.xyz, back) / sum) * cover / max(light.a, 1.0e-7f));
 }
 
 /// What the cone meets of the layer it looks at, if it does ahead of its origin and within its reach. A face deeper than

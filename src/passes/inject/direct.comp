@@ -27,28 +27,26 @@ struct FaceLight {
     FaceLobe lobe;
 };
 
-/// Adds what the face reflects of the illuminance of a light towards which `toward` leads. A lobe's radiance is its exitance ×
-/// density / clamped cosine. The voxel shows its surface by the areas that its axes see, |n| of it each, and what leaves them is
-/// in proportion to the cosine to the axis: those cosines stand for the surface's own.
+/// Adds what the face reflects of the illuminance of a light whose mean direction is `toward`: the shorter, the wider the light. A lobe's
+/// radiance is its exitance × density / clamped cosine. It is wider by the light's extent and by the spread of the face's normals:
+/// of a small angle δ between them cos δ is the mean's length, and reflections turn by 2δ.
 void reflect_light(vec3 illuminance, vec3 toward, VoxelFace face, inout FaceLight sum) {
-    const vec3 wi = to_local(frame_from_normal(face.normal), toward);
+    const Frame about = frame_from_normal(face.normal);
+    const vec3 wi = to_local(about, normalize(toward));
     if (!has_lobes || face.specular <= 0.0f || wi.z <= 0.0f) {
         sum.exitance += face.albedo * illuminance;
         return;
     }
     const ReflectedLight reflected = reflected_light(face.albedo, face.specular, face.alpha, wi);
     sum.exitance += reflected.diffuse * illuminance;
-    const vec3 mean = to_world(frame_from_normal(face.normal), reflected.mean);
-    const float mean_length = max(length(mean), 1.0e-6f);
-    const float concentration = lobe_concentration(mean_length);
-    float by_axes = 0.0f;
-    for (int axis = 0; axis < 3; ++axis)
-        by_axes += abs(face.normal[axis]) * lobe_clamped_cosine(concentration, sign(face.normal[axis]) * mean[axis] / mean_length);
-    const float by_normal = lobe_clamped_cosine(concentration, reflected.mean.z / mean_length);
-    const vec3 light = reflected.specular * illuminance * (by_normal / (by_axes * reflected.clamped_cosine * push.grid.radiance_unit));
+    const float narrow = max(length(reflected.mean), 1.0e-6f);
+    const float spread = min(length(toward), 1.0f) * max(0.0f, 1.0f - 4.0f * (1.0f - face.straight));
+    const float cosine = reflected.mean.z / narrow;
+    const float widened = lobe_clamped_cosine(lobe_concentration(narrow * spread), cosine) / lobe_clamped_cosine(lobe_concentration(narrow), cosine);
+    const vec3 light = reflected.specular * illuminance / (max(reflected.clamped_cosine * widened, 1.0e-4f) * push.grid.radiance_unit);
     const float weight = dot(light, vec3(1.0f / 3.0f));
     sum.lobe.light += light;
-    sum.lobe.direction += weight * mean;
+    sum.lobe.direction += weight * spread * to_world(about, reflected.mean);
     sum.lobe.weight += weight;
 }
 
@@ -56,16 +54,16 @@ void add_light(uint index, float weight, VoxelFace face, inout FaceLight reflect
     const LightData light = shining_light(push.light_first + index);
     const uint samples = light_is_delta(light) ? 1u : area_light_samples;
     vec3 sum = vec3(0.0f);
-    vec3 toward = vec3(0.0f);
+    vec4 toward = vec4(0.0f);
     for (uint i = 0u; i < samples; ++i) {
         const LightSample arriving = scene_light_sample(light, face.position, hammersley(i, samples));
         const float cosine = max(dot(arriving.direction, face.normal), 0.0f);
         sum += arriving.value * cosine;
-        toward += arriving.direction * cosine;
+        toward += cosine * vec4(arriving.direction, 1.0f);
     }
     if (sum == vec3(0.0f)) return;
     const float share = light_reaching(light, index, face.position, face.normal, shadow_filter_percentage_closer) / float(samples);
-    if (share > 0.0f) reflect_light(sum * (weight * share), normalize(toward), face, reflected);
+    if (share > 0.0f) reflect_light(sum * (weight * share), toward.xyz / toward.w, face, reflected);
 }
 
 const uint light_picks_a_face = 32u;

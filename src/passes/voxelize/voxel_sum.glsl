@@ -74,7 +74,7 @@ void sum(VoxelTriangle triangle, ivec3 voxel, uint record) {
         add(place + voxel_field_position, shown * position, rounding);
         if (surface.specular > 0.0f) {
             add(place + voxel_field_specular, area * surface.specular, rounding);
-            add(place + voxel_field_alpha, shown * surface.alpha, rounding);
+            add(place + voxel_field_alpha, area * surface.specular * surface.alpha, rounding);
         }
         if (any(greaterThan(surface.emission, vec3(0.0f))))
             add_emission(record * voxel_faces + face, area * surface.emission, area * surface.opacity, rounding);
