@@ -72,13 +72,13 @@ Result<void> VoxelVolume::finish_graph(graph::Executor& executor, VolumeGraph& v
     volume.graph.export_image(volume.images.depths, graph::Usage::sampled);
     volume.graph.export_image(volume.images.lobes, graph::Usage::sampled);
     volume.graph.export_buffer(volume.images.occupancy);
-    for (const auto& one : volume.cascades)
+    for (const auto& one : volume.cascades) {
         if (one.lobes) volume.graph.export_buffer(one.lobes);
-    for (const auto& one : volume.cascades)
         for (const graph::BufferHandle buffer : {one.surfaces.numbers, one.surfaces.cells, one.surfaces.records,
                                                  one.surfaces.tiles, one.surfaces.levels, one.lit_faces, one.exitance, one.gathered,
                                                  one.shown.numbers, one.shown.cells, one.shown.levels, one.shown.gathered})
             volume.graph.export_buffer(buffer);
+    }
     for (const passes::CarriedSurfaces& still : volume.still)
         for (const graph::BufferHandle buffer : {still.numbers, still.cells, still.records}) volume.graph.export_buffer(buffer);
     if (auto done = executor.set_graph(volume.graph); !done) return done;

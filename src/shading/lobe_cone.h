@@ -25,6 +25,24 @@ SHADING_FN Cone lobe_cone(vec3 wo, float sine, float cosine, float one_minus_cos
     return cone;
 }
 
+/// Where a table over √μ and √α is read, bilinearly: the first of the four entries, and how far on towards the next column and row.
+struct LobeTableCell {
+    uint entry;
+    float x;
+    float y;
+};
+SHADING_FN LobeTableCell lobe_table_cell(float mu, float alpha, uint layer, uint rows, uint columns) {
+    float row = alpha_coordinate(alpha) * float(rows - 1u);
+    float column = sqrt(clamp(mu, 0.0f, 1.0f)) * float(columns - 1u);
+    uint j = min(uint(row), rows - 2u);
+    uint i = min(uint(column), columns - 2u);
+    LobeTableCell cell;
+    cell.entry = (layer * rows + j) * columns + i;
+    cell.x = column - float(i);
+    cell.y = row - float(j);
+    return cell;
+}
+
 SHADING_FN vec2 specular_lobe_row(uint first, float x) {
     return mix(vec2(shading_table(first), shading_table(first + 1u)),
                vec2(shading_table(first + 2u), shading_table(first + 3u)), x);
@@ -33,13 +51,9 @@ SHADING_FN vec2 specular_lobe_row(uint first, float x) {
 /// mirror's, and √(1 − cos γ)/α; bilinear in √μ (to which the second of a narrow lobe is in proportion) and √α. Between the entries it
 /// is within 0.1° and 1 % of solid angle for μ ≥ 0.1, 10 % below (tests/shading/cone_test.cpp).
 SHADING_FN vec2 specular_lobe(float mu, float alpha, uint layer) {
-    float row = alpha_coordinate(alpha) * float(specular_lobe_rows - 1u);
-    float column = sqrt(clamp(mu, 0.0f, 1.0f)) * float(specular_lobe_columns - 1u);
-    uint j = min(uint(row), specular_lobe_rows - 2u);
-    uint i = min(uint(column), specular_lobe_columns - 2u);
-    uint first = specular_lobe_start + 2u * ((layer * specular_lobe_rows + j) * specular_lobe_columns + i);
-    float x = column - float(i);
-    return mix(specular_lobe_row(first, x), specular_lobe_row(first + 2u * specular_lobe_columns, x), row - float(j));
+    LobeTableCell cell = lobe_table_cell(mu, alpha, layer, specular_lobe_rows, specular_lobe_columns);
+    uint first = specular_lobe_start + 2u * cell.entry;
+    return mix(specular_lobe_row(first, cell.x), specular_lobe_row(first + 2u * specular_lobe_columns, cell.x), cell.y);
 }
 
 /// The cone of a lobe in the plane of incidence by specular_lobe()'s pair; weight 1.

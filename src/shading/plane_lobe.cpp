@@ -64,11 +64,10 @@ FluxMoments flux_moments(glm::dvec2 eta) {
 }
 
 /// What of radiance makes flux of the mean `m`, for narrow lobes: a density of concentration κ about m over the cosine, which is
-/// e^(κ m·ω − ω·n/(m·n)) to first order about m; κ by Banerjee, Dhillon, Ghosh & Sra 2005, eq. 4.4.
+/// e^(κ m·ω − ω·n/(m·n)) to first order about m.
 glm::dvec2 narrow_lobe(glm::dvec2 m) {
     const double length = glm::length(m);
-    const double concentration = length * (3 - length * length) / (1 - length * length);
-    return concentration * m / length - glm::dvec2(0, length / m.y);
+    return double(lobe_concentration(static_cast<float>(length))) * m / length - glm::dvec2(0, length / m.y);
 }
 
 }  // namespace

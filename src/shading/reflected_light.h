@@ -27,15 +27,11 @@ SHADING_FN vec3 reflected_lobe_entry(uint index) {
 /// The lobe of radiance that a plane reflects of light at cosine `mu` (plane_lobe.h): its mean, x along the light's side, y
 /// along the normal, and its clamped cosine; bilinear in √μ and √α.
 SHADING_FN vec3 reflected_lobe(float mu, float alpha, uint layer) {
-    float row = alpha_coordinate(alpha) * float(reflected_lobe_rows - 1u);
-    float column = sqrt(clamp(mu, 0.0f, 1.0f)) * float(reflected_lobe_columns - 1u);
-    uint j = min(uint(row), reflected_lobe_rows - 2u);
-    uint i = min(uint(column), reflected_lobe_columns - 2u);
-    uint first = reflected_lobe_start + 3u * ((layer * reflected_lobe_rows + j) * reflected_lobe_columns + i);
+    LobeTableCell cell = lobe_table_cell(mu, alpha, layer, reflected_lobe_rows, reflected_lobe_columns);
+    uint first = reflected_lobe_start + 3u * cell.entry;
     uint next = first + 3u * reflected_lobe_columns;
-    float x = column - float(i);
-    return mix(mix(reflected_lobe_entry(first), reflected_lobe_entry(first + 3u), x),
-               mix(reflected_lobe_entry(next), reflected_lobe_entry(next + 3u), x), row - float(j));
+    return mix(mix(reflected_lobe_entry(first), reflected_lobe_entry(first + 3u), cell.x),
+               mix(reflected_lobe_entry(next), reflected_lobe_entry(next + 3u), cell.x), cell.y);
 }
 
 /// What a surface reflects of a light from one direction.

@@ -6,11 +6,12 @@
 #include "shading/material_eval.h"
 #include "shading/octahedral.h"
 #include "shading/random.h"
+#include "shading/reflected_light.h"
 #include "shading/sky.h"
 #include "shading/tone.h"
 SHADING_BEGIN
 
-SHADING_CONST uint agreement_values = 28u;  // vec4 a case
+SHADING_CONST uint agreement_values = 30u;  // vec4 a case
 SHADING_CONST uint agreement_sky_value = 26u;
 
 SHADING_FN Surface agreement_surface(uint i) {
@@ -246,6 +247,13 @@ SHADING_FN vec4 agreement_value(uint i, uint k) {
     }
     if (k == 27u) {
         return vec4(into_gamut(rgb_from_xyz(vec3(v)), v.y), limb_darkening(v.w));
+    }
+    if (k == 28u || k == 29u) {
+        vec3 albedo = vec3(v);
+        ReflectedLight light = reflected_light(albedo, v.w * (albedo.x + albedo.y + albedo.z) * (1.0f / 3.0f), 0.01f + 0.9f * u.z, wo);
+        float concentration = lobe_through_cone(lobe_concentration(length(light.mean)), 0.1f);
+        return k == 28u ? vec4(light.mean, light.clamped_cosine)
+                        : vec4(light.diffuse + light.specular, lobe_density(concentration, wi.z) * lobe_clamped_cosine(concentration, wo.z));
     }
     return v;
 }

@@ -16,7 +16,7 @@ void read_surfaces(graph::PassBuilder& pass, const Surfaces& surfaces) {
 }
 
 /// `own` with the surfaces'.
-std::vector<NumberedBinding> surface_bindings(const graph::PassContext& context, const LightingInputs& lighting, const VolumeInputs& volume,
+std::vector<NumberedBinding> surface_bindings(const graph::PassContext& context, const LightingInputs& lighting,
                                               const Surfaces& surfaces, const ConeWeights& weights, std::vector<NumberedBinding> own) {
     own.insert(own.end(), {{8, *lighting.frame},
                            {11, *lighting.shading_tables},
@@ -24,7 +24,6 @@ std::vector<NumberedBinding> surface_bindings(const graph::PassContext& context,
                            {18, gpu::Binding(context.image(surfaces.albedos), lighting.nearest)},
                            {19, gpu::Binding(context.image(surfaces.lobes), lighting.nearest)},
                            {17, context.buffer(weights.listed)},
-                           {21, *volume.data},
                            {25, gpu::Binding(context.image(surfaces.ids), lighting.nearest)}});
     return own;
 }
@@ -46,8 +45,7 @@ void read_surfaces_and_volume(graph::PassBuilder& pass, const ConeTrace& cones) 
 std::vector<gpu::Binding> bindings_of(const ConeTrace& cones, const gpu::Pipeline& pipeline, const graph::PassContext& context,
                                       std::vector<NumberedBinding> own) {
     return select_bindings(pipeline, cones.scene,
-                           with_volume(cones.volume, surface_bindings(context, cones.lighting, cones.volume, cones.surfaces, cones.weights,
-                                                                      std::move(own))));
+                           with_volume(cones.volume, surface_bindings(context, cones.lighting, cones.surfaces, cones.weights, std::move(own))));
 }
 
 }  // namespace
@@ -76,8 +74,8 @@ Result<ConeWeights> add_cone_weights(graph::Graph& graph, gpu::Pipelines& pipeli
         },
         [&scene, &lighting, surfaces, result, extent, weigh = *pipeline](graph::PassContext& context) {
             const auto bindings = select_bindings(*weigh, scene,
-                                                  surface_bindings(context, lighting, *lighting.volume, surfaces, result,
-                                                                   {{13, context.image(result.weights)}}));
+                                                  with_volume(*lighting.volume, surface_bindings(context, lighting, surfaces, result,
+                                                                                                 {{13, context.image(result.weights)}})));
             context.commands.dispatch_threads(*weigh, gpu::NoPushConstants{}, bindings, {extent.width, extent.height, 1});
         });
     return result;

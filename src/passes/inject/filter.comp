@@ -14,7 +14,7 @@ layout(constant_id = 0) const bool isotropic = false;
 
 /// Two voxels behind each other: cover and depth × cover. Returns how much of the rear one is seen.
 float add_column(vec2 front, vec2 rear, bool front_is_upper, inout vec2 sum) {
-    const float seen = rear.x > 0.0f ? min(1.0f - front.x, rear.x) / rear.x : 0.0f;
+    const float seen = seen_behind(front.x, rear.x);
     const vec2 upper = front_is_upper ? front : rear * seen;
     sum += vec2(front.x + rear.x * seen, 0.5f * (front.y + rear.y * seen + upper.x));  // the upper half of the coarse one's depth
     return seen;

@@ -20,4 +20,8 @@ bool level_voxel(out ivec3 voxel, out int size) {
 /// First texel of a face in the texture of all faces.
 ivec3 face_corner(int axis, int side, int size) { return size * ivec3(side, int(push.cascade), axis); }
 
+/// Of two voxels behind each other, by their covers: the share of the rear one that is seen past the front one, pieces of one
+/// surface side by side (docs/gi-theory.md).
+float seen_behind(float front, float rear) { return rear > 0.0f ? min(1.0f - front, rear) / rear : 0.0f; }
+
 #endif

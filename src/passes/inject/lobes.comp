@@ -56,7 +56,7 @@ void main() {
         const ivec3 base = 2 * voxel + (i & 1) * across_u + (i >> 1) * across_v;
         const ShownLobe before = shown_by(base + front, face, 2 * size);
         const ShownLobe behind = shown_by(base + along - front, face, 2 * size);
-        const float seen = behind.light.a > 0.0f ? min(1.0f - before.light.a, behind.light.a) / behind.light.a : 0.0f;
+        const float seen = seen_behind(before.light.a, behind.light.a);
         sum.light += before.light + seen * behind.light;
         sum.direction += before.direction + seen * behind.direction;
     }
